@@ -1,0 +1,2 @@
+#include "swage/report.h"
+namespace swage {}

@@ -1,0 +1,55 @@
+// How a solve is followed, stopped and told about afterwards.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace swage {
+
+struct Progress {
+  const char* stage = "";  ///< What is being done, such as "factor" or "pass".
+  int pass = 0;            ///< Passes completed.
+  int pass_limit = 0;
+  double fraction = 0;  ///< Of the whole call, in [0, 1], never falling.
+  double energy = 0;    ///< After the last pass; 0 before the first.
+};
+
+/// Called between stages and passes, from the calling thread. Returning false cancels: the call ends with the last
+/// complete iterate.
+using ProgressFn = std::function<bool(const Progress&)>;
+
+/// Why a solve ended. In each case the positions returned are those of the pass with the lowest energy seen when it
+/// ended, but for `cancelled`, where they are the last complete pass's.
+enum class Termination {
+  moved_little,    ///< No vertex moved farther than StopRule::movement in the last pass.
+  energy_rose,     ///< The energy rose or stood still: the pass before is returned.
+  energy_settled,  ///< The energy fell by less than StopRule::energy_drop.
+  pass_limit,      ///< StopRule::pass_limit passes were made.
+  cancelled,       ///< The progress function returned false.
+};
+
+/// "moved", "energy rose", "energy settled", "pass limit", "cancelled".
+const char* to_string(Termination termination);
+
+struct StopRule {
+  int pass_limit = 100;    ///< At least 1.
+  int first_test = 3;      ///< The pass, counted from 1, after which tests begin.
+  double movement = 0;     ///< Largest vertex movement in a pass that counts as standing still, solver units.
+  double energy_drop = 0;  ///< Smallest fall of the energy in a pass that counts as progress.
+};
+
+struct Report {
+  Termination stop = Termination::pass_limit;
+  int passes = 0;                                ///< Vertex steps made.
+  int best_pass = 0;                             ///< The pass returned, from 0.
+  double energy = 0;                             ///< Of the pass returned.
+  std::map<std::string, double> energy_by_term;  ///< Its parts, weighted.
+  std::vector<double> energies;                  ///< After each pass.
+  std::vector<double> movements;                 ///< Largest vertex movement of each pass, solver units.
+  std::map<std::string, double> seconds;         ///< Wall time by stage.
+  std::vector<std::string> warnings;
+};
+
+}  // namespace swage

@@ -1,0 +1,81 @@
+// The local steps: what is asked of each, whoever does it. A step owns what never changes; a call brings what does.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "swage/mesh.h"
+
+namespace swage {
+
+/// #T × 9: a 3 × 3 matrix a row, row by row.
+using Transforms = Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>;
+
+/// Reshaping, per triangle and edge (reshape.h; paper sections 3.3 and 4.2). From transforms: their inverses, target
+/// lengths, and the quadratic that the vertex step minimises. From positions: length weights, the transform step's
+/// right-hand sides, and the energy.
+class TransformStep {
+ public:
+  /// The rest shape, in the unit box.
+  struct Rest {
+    Triangles triangles;
+    Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> edges;           ///< #E × 2 vertices.
+    Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> triangle_edges;  ///< #T × 3: k joins corners k and k + 1.
+    Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> pairs;           ///< #P × 2 triangles beside one edge.
+    Eigen::VectorXi pair_edges;                                             ///< #P: that edge.
+    Positions edge_vectors;                                                 ///< #E × 3, second vertex minus first.
+    Positions normals;                                                      ///< #T × 3, unit.
+    Positions pair_opposites;           ///< #P × 3: unit vector between the vertices opposite the edge.
+    Eigen::VectorXd pair_similarities;  ///< #P: similarity weight.
+    Eigen::VectorXd sphericities;       ///< #T: sphericity weight (Gamma).
+    Positions vertices;                 ///< #V × 3, whose triangles' corners the sphericity term compares.
+    double mean_edge_length = 0;        ///< L_avg
+    double normal_weight = 0, connect_weight = 0, scale_weight = 0, regularizer_weight = 0;
+  };
+
+  /// For each edge e the quadratic e' B e - 2 c' e of the transform, normal and scale terms, e the edge's vector.
+  struct EdgeQuadratics {
+    Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> blocks;  ///< #E × 6: B as xx, xy, xz, yy, yz, zz.
+    Positions right_hand_sides;                                        ///< #E × 3: c.
+    Eigen::VectorXd target_lengths;                                    ///< #E
+    int singular = 0;  ///< Triangles whose transform is too near singular to invert: a damped inverse stands in.
+  };
+
+  /// Weighted terms of the energy, with current lengths in place of target lengths.
+  struct Energy {
+    double transform = 0, normal = 0, scale = 0, sphericity = 0;  ///< Of the vertex step.
+    double connect = 0, similarity = 0, transform_normal = 0, transform_sphericity = 0,
+           regularizer = 0;  ///< Of the transform step.
+  };
+
+  virtual ~TransformStep() = default;
+
+  /// Back to rest: length weights from the rest lengths.
+  virtual void reset() = 0;
+
+  /// Keeps the transforms and gives the vertex step's quadratics.
+  virtual void fit_edges(const Transforms& transforms, EdgeQuadratics& quadratics) = 0;
+
+  /// Updates the length weights from the positions and gives the right-hand sides of the transform step (#T × 9),
+  /// and the energy of the positions with the transforms kept.
+  virtual Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) = 0;
+};
+
+/// Principal curvatures, per vertex, of the quadric that fits its neighbours (curvature.h).
+class CurvatureStep {
+ public:
+  struct Rest {
+    Positions positions;
+    Positions normals;            ///< #V × 3, unit: the quadric is a height over the plane they are normal to.
+    std::vector<int> offsets;     ///< #V + 1: neighbours of v stand at offsets[v] .. offsets[v + 1].
+    std::vector<int> neighbours;  ///< Vertices, v itself left out.
+  };
+
+  virtual ~CurvatureStep() = default;
+
+  /// #V × 2, k1 >= k2, 1 / unit of the positions; 0 where fewer than five neighbours or a degenerate placing of them
+  /// leave the fit undetermined.
+  virtual void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) = 0;
+};
+
+}  // namespace swage

@@ -1,0 +1,23 @@
+// The shapes that tests run on, generated.
+#pragma once
+
+#include "swage/mesh.h"
+
+namespace swage::test {
+
+/// A closed sphere from an icosahedron subdivided `subdivisions` times.
+Mesh sphere(double radius = 1, int subdivisions = 3);
+/// A closed cylinder about the y axis with caps, 0 <= y <= height. Well-shaped where segments / rings suits the size.
+Mesh cylinder(double radius = 0.5, double height = 1, int segments = 32, int rings = 10);
+/// A torus about the z axis.
+Mesh torus(double major_radius = 1, double minor_radius = 0.4, int major_segments = 48, int minor_segments = 24);
+/// A closed axis-aligned box from the origin, each side of `cells` × `cells` squares.
+Mesh box(const Eigen::Vector3d& size = {1, 1, 1}, int cells = 4);
+/// An open square sheet [0, 1]² at z = 0.
+Mesh sheet(int cells = 8);
+
+/// All triangles of both, b's vertices after a's.
+Mesh joined(const Mesh& a, const Mesh& b);
+Mesh transformed(const Mesh& mesh, double scale, const Eigen::Vector3d& translation);
+
+}  // namespace swage::test
