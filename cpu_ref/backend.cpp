@@ -1,4 +1,24 @@
 #include "swage/backend.h"
+
+#include "cpu_steps.h"
+
 namespace swage {
-std::shared_ptr<Backend> cpu_backend() { return nullptr; }
+namespace {
+
+class CpuBackend final : public Backend {
+ public:
+  std::string name() const override { return "cpu"; }
+  std::string device() const override { return "host"; }
+  std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const override {
+    return cpu_transform(rest);
+  }
+  std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const override {
+    return cpu_curvature(rest);
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<Backend> cpu_backend() { return std::make_shared<CpuBackend>(); }
+
 }  // namespace swage

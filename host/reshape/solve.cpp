@@ -1,14 +1,148 @@
-#include "swage/error.h"
-#include "swage/reshape.h"
+#include <numeric>
+#include <string>
+
+#include "alternate.h"
+#include "plan.h"
+
 namespace swage {
-struct Reshape::Plan {};
-Reshape::Reshape(const PositionsRef&, const TrianglesRef&, const ReshapeOptions&, const ProgressFn&) {}
+namespace {
+
+constexpr double kPrepared = 0.2;  // Of a whole call's progress.
+
+Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
+  Holds handles{{}, Positions(static_cast<Eigen::Index>(gesture.targets.size()), 3), weight};
+  for (const auto& [vertex, target] : gesture.targets) {
+    handles.targets.row(static_cast<Eigen::Index>(handles.vertices.size())) =
+        (target.transpose() - box.corner) / box.extent;
+    handles.vertices.push_back(vertex);
+  }
+  return handles;
+}
+
+Iterate start(ReshapePlan& plan, const Gesture& gesture) {
+  Iterate iterate;
+  iterate.handles = handles_of(gesture, plan.box, plan.options.weights.handle);
+  iterate.transforms = identities(plan.mesh.triangles.rows());
+  plan.step->reset();
+  return iterate;
+}
+
+StopRule stop_rule(const ReshapePlan& plan) {
+  StopRule stop;
+  stop.pass_limit = plan.options.pass_limit;
+  stop.movement = plan.rest.mean_edge_length / 100;
+  stop.energy_drop = 0.01 / static_cast<double>(plan.edges.vertices.rows());
+  return stop;
+}
+
+double place(ReshapePlan& plan, Iterate& iterate, Positions& positions) {
+  const Stopwatch watch(iterate.seconds["vertex_step"]);
+  plan.step->fit_edges(iterate.transforms, iterate.quadratics);
+  iterate.singular = std::max(iterate.singular, iterate.quadratics.singular);
+  iterate.before = positions;
+  positions = place_vertices(*plan.vertices, plan.rest, iterate.quadratics, plan.straight,
+                             plan.options.weights.straightness, {iterate.handles});
+  const TransformStep::Energy local = plan.step->fit_transforms(positions, iterate.right_hand_sides);
+  iterate.energy_by_term = energy_terms(local, positions, plan.straight, plan.options.weights, iterate.handles);
+  return sum(iterate.energy_by_term);
+}
+
+void fit(ReshapePlan& plan, Iterate& iterate) {
+  const Stopwatch watch(iterate.seconds["transform_step"]);
+  if (plan.options.refactor_every_pass) plan.transforms->factor();
+  iterate.transforms = solve_transforms(*plan.transforms, iterate.right_hand_sides);
+}
+
+void tell(const ReshapePlan& plan, const Iterate& iterate, Report& report) {
+  report.energy_by_term = iterate.energy_by_term;
+  report.seconds = iterate.seconds;
+  report.seconds["precompute"] = plan.prepare_seconds;
+  report.seconds["solve"] = std::accumulate(iterate.seconds.begin(), iterate.seconds.end(), 0.0,
+                                            [](double sum, const auto& stage) { return sum + stage.second; });
+  if (iterate.singular > 0) {
+    report.warnings.push_back("in a pass " + std::to_string(iterate.singular) +
+                              " triangles were flattened: their transforms were inverted with damping");
+  }
+}
+
+ProgressFn after_preparation(const ProgressFn& progress) {
+  if (!progress) return progress;
+  return [&progress](Progress p) {
+    p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
+    return progress(p);
+  };
+}
+
+}  // namespace
+
+Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options) {
+  check(positions, triangles);
+  Mesh mesh{positions, triangles};
+  check_options(options, mesh);
+  Edges edges = edges_of(mesh.triangles);
+  check_surface(mesh, edges);
+  std::vector<StraightTriple> straight =
+      straight_triples(options.straight_chains, edges, static_cast<int>(mesh.positions.rows()));
+  const UnitBox box = unit_box(mesh.positions);
+  plan_ =
+      std::make_unique<ReshapePlan>(ReshapePlan{options, std::move(mesh), box, std::move(edges), std::move(straight)});
+  if (!plan_->options.backend) plan_->options.backend = cpu_backend();
+}
+
 Reshape::~Reshape() = default;
 Reshape::Reshape(Reshape&&) noexcept = default;
 Reshape& Reshape::operator=(Reshape&&) noexcept = default;
-ReshapeResult Reshape::solve(const Gesture&, const ProgressFn&) { throw Unavailable("not yet"); }
-ReshapeResult reshape(const PositionsRef& p, const TrianglesRef& t, const Gesture& g, const ReshapeOptions& o,
-                      const ProgressFn& f) {
-  return Reshape(p, t, o, f).solve(g, f);
+
+bool Reshape::prepare(const ProgressFn& progress) {
+  ReshapePlan& plan = *plan_;
+  if (plan.prepared()) return true;
+  auto goes_on = [&](const char* stage, double part) {
+    return !progress || progress({stage, 0, plan.options.pass_limit, part * kPrepared, 0});
+  };
+  const Stopwatch watch(plan.prepare_seconds);
+  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
+  if (!goes_on("curvature", 0)) return false;
+  const Curvatures curvatures = plan.options.unit_box_curvatures ? *plan.options.unit_box_curvatures
+                                                                 : curvature(unit_mesh.positions, unit_mesh.triangles);
+  plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
+  plan.step = plan.options.backend->transform(plan.rest);
+  if (!goes_on("order", 0.2)) return false;
+  plan.vertices = vertex_system(plan.rest, plan.straight);
+  BlockSystem transforms = transform_system(plan.rest);
+  if (!goes_on("factor", 0.4)) return false;
+  transforms.factor();
+  plan.transforms = std::move(transforms);
+  return goes_on("prepared", 1);
 }
+
+ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress) {
+  ReshapePlan& plan = *plan_;
+  check(gesture, plan.mesh.positions, plan.mesh.triangles);
+  ReshapeResult result;
+  result.positions = result.unfinished = plan.mesh.positions;
+  result.report.stop = Termination::cancelled;
+  if (!prepare(progress)) return result;
+
+  Iterate iterate = start(plan, gesture);
+  Positions positions = plan.rest.vertices;
+  result.report = alternate(
+      stop_rule(plan), after_preparation(progress), positions,
+      {[&](Positions& placed) { return place(plan, iterate, placed); }, [&](const Positions&) { fit(plan, iterate); }});
+  result.unfinished = plan.box.back(positions);
+  if (plan.options.finalise && result.report.stop != Termination::cancelled) {
+    if (const std::optional<Positions> spread = spread_dimples(plan, iterate, positions)) {
+      result.finalised = true;
+      positions = *spread;
+    }
+  }
+  result.positions = plan.box.back(positions);
+  tell(plan, iterate, result.report);
+  return result;
+}
+
+ReshapeResult reshape(const PositionsRef& positions, const TrianglesRef& triangles, const Gesture& gesture,
+                      const ReshapeOptions& options, const ProgressFn& progress) {
+  return Reshape(positions, triangles, options).solve(gesture, progress);
+}
+
 }  // namespace swage

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,8 @@
 
 namespace swage {
 
-/// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box.
+/// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box. Finite, none negative;
+/// handle and regularizer above 0.
 struct ReshapeWeights {
   double normal = 10;         ///< w_normal
   double similarity = 1;      ///< of E_similarity
@@ -30,14 +32,14 @@ struct ReshapeWeights {
 
 struct ReshapeOptions {
   ReshapeWeights weights;
-  double feature_angle = 1.8325957145940461;      ///< Interior dihedral angle, radians (105°): the surfaces on both
-                                                  ///< sides of a sharper edge stretch independently.
-  std::optional<Curvatures> unit_box_curvatures;  ///< #T × 2, for the mesh scaled into the unit box; else computed.
-  std::vector<std::vector<int>> straight_chains;  ///< Vertex chains that stay straight.
+  double feature_angle = std::numbers::pi * 105 / 180;  ///< Interior dihedral angle in radians, [0, pi]: surfaces
+                                                        ///< beside a sharper edge stretch independently.
+  std::optional<Curvatures> unit_box_curvatures;  ///< #T × 2, of the mesh scaled into the unit box; else computed.
+  std::vector<std::vector<int>> straight_chains;  ///< Chains of vertices, joined by edges, that stay straight.
   int pass_limit = 100;                           ///< At least 1.
-  bool finalise = true;                           ///< Spread dimples at handles (appendix A, Finalizing Outputs).
-  bool refactor_every_pass = false;               ///< As the paper solves it, for comparison: same result, slower.
-  std::shared_ptr<Backend> backend;               ///< Who does the local steps; cpu_backend() where none is given.
+  bool finalise = true;                           ///< Spread dimples at handles (appendix A).
+  bool refactor_every_pass = false;               ///< As published: the same result, slower. For comparison.
+  std::shared_ptr<Backend> backend;               ///< Does the local steps; cpu_backend() where none is given.
 };
 
 struct ReshapeResult {
@@ -47,27 +49,28 @@ struct ReshapeResult {
   Report report;
 };
 
+struct ReshapePlan;  ///< What is kept of a mesh between solves.
+
 /// Reshapes one mesh, any number of times.
 class Reshape {
  public:
-  /// Prepares all that depends on the rest shape alone: one factorisation of the transform step's matrix among it.
-  /// `progress` may cancel: then solve() throws Unsolvable.
   /// Throws InvalidInput where check(positions, triangles) does, an edge has one triangle or more than two, a
   /// triangle is degenerate, or an option is out of its range.
-  Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options = {},
-          const ProgressFn& progress = {});
+  Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options = {});
   ~Reshape();
   Reshape(Reshape&&) noexcept;
   Reshape& operator=(Reshape&&) noexcept;
 
-  /// Positions in which the handles are at their targets and the energy is as the published alternation leaves it.
-  /// A solve does not depend on those before it.
-  /// Throws InvalidInput as check(gesture, positions, triangles) does.
+  /// Prepares all that depends on the rest shape alone, among it the one factorisation of the transform step's
+  /// matrix. The first solve does so where it was not done before. Returns false where `progress` cancelled.
+  bool prepare(const ProgressFn& progress = {});
+
+  /// Moves the handles to their targets by the published alternation. Does not depend on earlier solves.
+  /// Throws InvalidInput as check(gesture, positions, triangles) does, and Unsolvable where a system is singular.
   ReshapeResult solve(const Gesture& gesture, const ProgressFn& progress = {});
 
  private:
-  struct Plan;
-  std::unique_ptr<Plan> plan_;
+  std::unique_ptr<ReshapePlan> plan_;
 };
 
 /// One gesture on one mesh.

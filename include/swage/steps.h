@@ -29,6 +29,8 @@ class TransformStep {
     Eigen::VectorXd pair_similarities;  ///< #P: similarity weight.
     Eigen::VectorXd sphericities;       ///< #T: sphericity weight (Gamma).
     Positions vertices;                 ///< #V × 3, whose triangles' corners the sphericity term compares.
+    Eigen::VectorXd length_weights;     ///< #E to start with, or empty: from the rest lengths (eq. 6).
+    Eigen::VectorXd target_lengths;     ///< #E to keep, or empty: from the transforms.
     double mean_edge_length = 0;        ///< L_avg
     double normal_weight = 0, connect_weight = 0, scale_weight = 0, regularizer_weight = 0;
   };
@@ -41,23 +43,23 @@ class TransformStep {
     int singular = 0;  ///< Triangles whose transform is too near singular to invert: a damped inverse stands in.
   };
 
-  /// Weighted terms of the energy, with current lengths in place of target lengths.
+  /// Terms of the energy, weighted but for transform_normal, with current lengths in place of target lengths.
   struct Energy {
-    double transform = 0, normal = 0, scale = 0, sphericity = 0;  ///< Of the vertex step.
-    double connect = 0, similarity = 0, transform_normal = 0, transform_sphericity = 0,
-           regularizer = 0;  ///< Of the transform step.
+    double transform = 0, normal = 0, scale = 0, sphericity = 0;                    ///< Of the vertex step.
+    double connect = 0, similarity = 0, transform_sphericity = 0, regularizer = 0;  ///< Of the transform step.
+    double transform_normal = 0;                                                    ///< The same, without its weight.
   };
 
   virtual ~TransformStep() = default;
 
-  /// Back to rest: length weights from the rest lengths.
+  /// Back to the length weights it started with.
   virtual void reset() = 0;
 
   /// Keeps the transforms and gives the vertex step's quadratics.
   virtual void fit_edges(const Transforms& transforms, EdgeQuadratics& quadratics) = 0;
 
-  /// Updates the length weights from the positions and gives the right-hand sides of the transform step (#T × 9),
-  /// and the energy of the positions with the transforms kept.
+  /// Gives the right-hand sides of the transform step (#T × 9) and the energy of the positions with the transforms
+  /// kept, under the length weights they were placed with. Then takes new length weights from the positions.
   virtual Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) = 0;
 };
 

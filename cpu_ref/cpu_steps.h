@@ -1,0 +1,13 @@
+// The reference steps, a file each.
+#pragma once
+
+#include <memory>
+
+#include "swage/steps.h"
+
+namespace swage {
+
+std::unique_ptr<TransformStep> cpu_transform(const TransformStep::Rest& rest);
+std::unique_ptr<CurvatureStep> cpu_curvature(const CurvatureStep::Rest& rest);
+
+}  // namespace swage

@@ -1,0 +1,59 @@
+#include "measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "swage/error.h"
+
+namespace swage {
+
+Positions edge_vectors(const Positions& positions, const Edges& edges) {
+  Positions vectors(edges.vertices.rows(), 3);
+  for (Eigen::Index e = 0; e < vectors.rows(); ++e) {
+    vectors.row(e) = positions.row(edges.vertices(e, 1)) - positions.row(edges.vertices(e, 0));
+  }
+  return vectors;
+}
+
+Positions area_vectors(const Positions& positions, const Triangles& triangles) {
+  Positions areas(triangles.rows(), 3);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Eigen::RowVector3d a = positions.row(triangles(t, 0));
+    const Eigen::RowVector3d ab = positions.row(triangles(t, 1)) - a, ac = positions.row(triangles(t, 2)) - a;
+    areas.row(t) = ab.cross(ac);
+  }
+  return areas;
+}
+
+Positions unit_normals(const Positions& positions, const Triangles& triangles) {
+  Positions normals = area_vectors(positions, triangles);
+  normals.rowwise().normalize();
+  return normals;
+}
+
+double mean_edge_length(const Positions& positions, const Triangles& triangles) {
+  double sum = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      sum += (positions.row(triangles(t, (k + 1) % 3)) - positions.row(triangles(t, k))).norm();
+    }
+  }
+  return sum / static_cast<double>(3 * triangles.rows());
+}
+
+double dihedral_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& other) {
+  // Both sine and cosine: the cosine alone cannot tell small angles apart.
+  return std::numbers::pi - std::atan2(normal.cross(other).norm(), normal.dot(other));
+}
+
+UnitBox unit_box(const PositionsRef& positions) {
+  const Eigen::RowVector3d low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+  const double extent = (high - low).maxCoeff();
+  if (!(extent > 0)) throw InvalidInput("unit_box: positions: all vertices are at one point");
+  return {low, extent};
+}
+
+}  // namespace swage

@@ -1,0 +1,36 @@
+// Lengths, directions, angles and the like, of a mesh or an edit of it.
+#pragma once
+
+#include "adjacency.h"
+#include "swage/mesh.h"
+
+namespace swage {
+
+/// #E × 3: second vertex minus first.
+Positions edge_vectors(const Positions& positions, const Edges& edges);
+
+/// #T × 3: twice the area long, along the normal.
+Positions area_vectors(const Positions& positions, const Triangles& triangles);
+
+/// #T × 3, unit; zero where a triangle has no area.
+Positions unit_normals(const Positions& positions, const Triangles& triangles);
+
+/// Mean over all triangles of their three edge lengths: an interior edge counts twice. The paper's L_avg.
+double mean_edge_length(const Positions& positions, const Triangles& triangles);
+
+/// Angle between the surfaces of two triangles with these unit normals, in [0, pi], pi where flat.
+double dihedral_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& other);
+
+/// Where a mesh lies: subtract `corner`, divide by `extent`, and it fits the unit box.
+struct UnitBox {
+  Eigen::RowVector3d corner;
+  double extent;
+
+  Positions into(const PositionsRef& positions) const { return (positions.rowwise() - corner) / extent; }
+  Positions back(const Positions& positions) const { return (positions * extent).rowwise() + corner; }
+};
+
+/// Throws InvalidInput where all positions are the same.
+UnitBox unit_box(const PositionsRef& positions);
+
+}  // namespace swage

@@ -1,0 +1,104 @@
+// The global steps: two sparse systems.
+#include "plan.h"
+#include "sphericity.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Matrix3d;
+
+struct Quadratic {
+  BlockSystem& system;
+  Eigen::VectorXd right_hand_side;
+};
+
+void add_edges(Quadratic& quadratic, const TransformStep::Rest& rest, const TransformStep::EdgeQuadratics& quadratics) {
+  for (Eigen::Index e = 0; e < rest.edges.rows(); ++e) {
+    const int i = rest.edges(e, 0), j = rest.edges(e, 1);
+    const auto b = quadratics.blocks.row(e);
+    Matrix3d block;
+    block << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
+    quadratic.system.add(i, block);
+    quadratic.system.add(j, block);
+    quadratic.system.add(i, j, 0, -block);
+    quadratic.right_hand_side.segment<3>(3 * i) -= quadratics.right_hand_sides.row(e);
+    quadratic.right_hand_side.segment<3>(3 * j) += quadratics.right_hand_sides.row(e);
+  }
+}
+
+/// Eq. 22 for one inner vertex of a chain.
+void add_straight(Quadratic& quadratic, const StraightTriple& triple, const Eigen::VectorXd& target_lengths,
+                  double weight) {
+  const double before = 1 / target_lengths[triple.edge_before], after = 1 / target_lengths[triple.edge_after];
+  const std::array<int, 3> vertices{triple.before, triple.middle, triple.after};
+  const std::array<double, 3> factors{before, -before - after, after};
+  for (size_t a = 0; a < 3; ++a) {
+    quadratic.system.add(vertices[a], weight * factors[a] * factors[a] * Matrix3d::Identity());
+    for (size_t b = a + 1; b < 3; ++b) {
+      const Matrix3d block = weight * factors[a] * factors[b] * Matrix3d::Identity();
+      if (vertices[a] == vertices[b]) {
+        quadratic.system.add(vertices[a], 2 * block);
+      } else {
+        quadratic.system.add(vertices[a], vertices[b], 0, block);
+      }
+    }
+  }
+}
+
+void add_holds(Quadratic& quadratic, const Holds& holds) {
+  for (size_t h = 0; h < holds.vertices.size(); ++h) {
+    const int v = holds.vertices[h];
+    quadratic.system.add(v, holds.weight * Matrix3d::Identity());
+    quadratic.right_hand_side.segment<3>(3 * v) += holds.weight * holds.targets.row(static_cast<Eigen::Index>(h));
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest) {
+  system.set_zero();
+  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
+    if (rest.sphericities[t] == 0) continue;
+    for (const Corner& corner : corners(rest, t)) {
+      const Matrix3d at_j = Matrix3d::Identity() / corner.length_j, at_k = -corner.turn / corner.length_k;
+      const std::array<int, 3> vertices{corner.i, corner.j, corner.k};
+      const std::array<Matrix3d, 3> factors{-at_j - at_k, at_j, at_k};
+      for (size_t a = 0; a < 3; ++a) {
+        system.add(vertices[a], rest.sphericities[t] * factors[a].transpose() * factors[a]);
+        for (size_t b = a + 1; b < 3; ++b) {
+          system.add(vertices[a], vertices[b], 0, rest.sphericities[t] * factors[a].transpose() * factors[b]);
+        }
+      }
+    }
+  }
+  return system.values();
+}
+
+Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
+                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
+                         double straightness_weight, const std::vector<Holds>& holds) {
+  Quadratic quadratic{vertices.system, Eigen::VectorXd::Zero(vertices.system.unknowns())};
+  vertices.system.values() = vertices.sphericity;
+  add_edges(quadratic, rest, quadratics);
+  for (const StraightTriple& triple : straight) {
+    add_straight(quadratic, triple, quadratics.target_lengths, straightness_weight);
+  }
+  for (const Holds& held : holds) add_holds(quadratic, held);
+  vertices.system.factor();
+  const Eigen::VectorXd solution = vertices.system.solve(quadratic.right_hand_side);
+  return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
+}
+
+Transforms identities(Eigen::Index triangle_count) {
+  Eigen::Matrix<double, 1, 9> identity;
+  identity << 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  return identity.replicate(triangle_count, 1);
+}
+
+Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides) {
+  const Eigen::Map<const Eigen::VectorXd> flat(right_hand_sides.data(), right_hand_sides.size());
+  const Eigen::VectorXd solution = system.solve(flat);
+  return Eigen::Map<const Transforms>(solution.data(), right_hand_sides.rows(), 9);
+}
+
+}  // namespace swage

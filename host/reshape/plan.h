@@ -1,0 +1,97 @@
+// What a prepared reshaping keeps, and the verbs that solve() is told in.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "block_system.h"
+#include "measures.h"
+#include "stopwatch.h"
+#include "swage/reshape.h"
+
+namespace swage {
+
+/// Three consecutive vertices of a straight chain with the edges between them.
+struct StraightTriple {
+  int before, middle, after;
+  int edge_before, edge_after;
+};
+
+/// Vertices held at targets, softly. In the unit box.
+struct Holds {
+  std::vector<int> vertices;
+  Positions targets;  ///< A row a vertex.
+  double weight = 0;
+};
+
+/// The vertex step's system and what goes into it besides the edges.
+struct VertexSystem {
+  BlockSystem system;
+  Eigen::VectorXd sphericity;  ///< The matrix's values of the sphericity term alone.
+};
+
+struct ReshapePlan {
+  ReshapeOptions options;
+  Mesh mesh;  ///< As given, mesh units.
+  UnitBox box;
+  Edges edges;
+  std::vector<StraightTriple> straight;
+
+  // Filled by prepare().
+  TransformStep::Rest rest = {};
+  std::unique_ptr<TransformStep> step = {};
+  std::optional<VertexSystem> vertices = {};
+  std::optional<BlockSystem> transforms = {};
+  double prepare_seconds = 0;
+
+  bool prepared() const { return transforms.has_value(); }
+};
+
+/// One solve's state.
+struct Iterate {
+  Holds handles;
+  Transforms transforms;
+  Positions before;             ///< As the last pass found them.
+  Transforms right_hand_sides;  ///< Of the transform step, for the positions last placed.
+  TransformStep::EdgeQuadratics quadratics;
+  std::map<std::string, double> energy_by_term;
+  int singular = 0;  ///< Most triangles in a pass whose transform had to be damped.
+  std::map<std::string, double> seconds;
+};
+
+// prepare.cpp
+void check_options(const ReshapeOptions& options, const Mesh& mesh);
+void check_surface(const Mesh& mesh, const Edges& edges);
+std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
+                                             int vertex_count);
+TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,
+                               const Curvatures& unit_box_curvatures);
+VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight);
+BlockSystem transform_system(const TransformStep::Rest& rest);
+
+// global.cpp
+/// The sphericity term as values of the vertex step's matrix.
+Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest);
+/// Minimises the vertex step's quadratic (eq. 23 with section 4's terms).
+Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
+                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
+                         double straightness_weight, const std::vector<Holds>& holds);
+/// Minimises the transform step's quadratic (eq. 35).
+Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides);
+
+/// #T × 9 identity matrices.
+Transforms identities(Eigen::Index triangle_count);
+
+// energy.cpp
+/// The terms by name, weighted; their sum decides when to stop.
+std::map<std::string, double> energy_terms(const TransformStep::Energy& local, const Positions& positions,
+                                           const std::vector<StraightTriple>& straight, const ReshapeWeights& weights,
+                                           const Holds& handles);
+double sum(const std::map<std::string, double>& terms);
+
+// finish.cpp
+/// Where a handle sits in a dimple, the positions with its error spread over the rings around (appendix A).
+std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterate, const Positions& positions);
+
+}  // namespace swage

@@ -1,0 +1,224 @@
+// All that depends on the rest shape alone.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "plan.h"
+#include "sphericity.h"
+#include "swage/error.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+/// What replaces the paper's 0/1 feature flag: edges soften as they sharpen.
+double similarity_weight(double dihedral, double feature_angle) {
+  if (dihedral <= feature_angle) return 0;
+  constexpr double kWidth = std::numbers::pi / 6;
+  return std::exp(-std::pow(dihedral - std::numbers::pi, 2) / (2 * kWidth * kWidth));
+}
+
+/// Gamma of the paper's section 4.1, with the cut-offs of its program.
+double sphericity_weight(double k1, double k2) {
+  const double anisotropy = (k1 - k2) / (std::max(std::abs(k1), std::abs(k2)) + 1e-3);
+  const double roundness = std::min(1.0, std::min(std::abs(k1), std::abs(k2)) / 2);
+  if (anisotropy > 0.5 || roundness <= 0.01) return 0;
+  return std::exp(-std::pow(anisotropy / 0.2, 2) / 2) * std::exp(-std::pow((roundness - 1) / 0.3, 2) / 2);
+}
+
+/// The vertex of the triangle that is not on the edge.
+int opposite(const Triangles& triangles, int triangle, const Eigen::RowVector2i& edge) {
+  for (int k = 0; k < 3; ++k) {
+    const int v = triangles(triangle, k);
+    if (v != edge[0] && v != edge[1]) return v;
+  }
+  return edge[0];
+}
+
+int edge_between(const Edges& edges, int a, int b) {
+  const auto [low, high] = std::minmax({a, b});
+  Eigen::Index first = 0, last = edges.vertices.rows();
+  while (first < last) {
+    const Eigen::Index middle = (first + last) / 2;
+    const bool before = std::pair(edges.vertices(middle, 0), edges.vertices(middle, 1)) < std::pair(low, high);
+    (before ? first : last) = before ? middle + 1 : middle;
+  }
+  const bool found =
+      first < edges.vertices.rows() && edges.vertices(first, 0) == low && edges.vertices(first, 1) == high;
+  return found ? static_cast<int>(first) : -1;
+}
+
+void add_pairs(TransformStep::Rest& rest, const Edges& edges, double feature_angle, double similarity) {
+  std::vector<std::array<int, 3>> pairs;
+  for (int e = 0; e < edges.triangles.size(); ++e) {
+    const Lists::Range beside = edges.triangles[e];
+    for (int i = 0; i < beside.size(); ++i) {
+      for (int j = i + 1; j < beside.size(); ++j) pairs.push_back({beside[i], beside[j], e});
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(pairs.size());
+  rest.pairs.resize(count, 2);
+  rest.pair_edges.resize(count);
+  rest.pair_opposites.resize(count, 3);
+  rest.pair_similarities.resize(count);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const auto [t, s, e] = pairs[static_cast<size_t>(p)];
+    const int v = opposite(rest.triangles, t, edges.vertices.row(e));
+    const int w = opposite(rest.triangles, s, edges.vertices.row(e));
+    rest.pairs.row(p) << t, s;
+    rest.pair_edges[p] = e;
+    rest.pair_opposites.row(p) = (rest.vertices.row(v) - rest.vertices.row(w)).normalized();
+    rest.pair_similarities[p] =
+        similarity * similarity_weight(dihedral_angle(rest.normals.row(t), rest.normals.row(s)), feature_angle);
+  }
+}
+
+/// The terms of eq. 35 within triangle t: transform, normal, sphericity, regularizer.
+Matrix9d triangle_block(const TransformStep::Rest& rest, Eigen::Index t) {
+  Matrix9d block = rest.regularizer_weight * Matrix9d::Identity();
+  const Vector3d normal = rest.normals.row(t);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d e0 = rest.edge_vectors.row(rest.triangle_edges(t, k)), d = e0.normalized();
+    Eigen::Matrix<double, 9, 1> tilt;
+    for (int r = 0; r < 3; ++r) {
+      block.block<3, 3>(3 * r, 3 * r) += e0 * e0.transpose() / rest.mean_edge_length;
+      tilt.segment<3>(3 * r) = normal[r] * d;
+    }
+    block += rest.normal_weight * tilt * tilt.transpose();
+  }
+  if (rest.sphericities[t] == 0) return block;
+  for (const Corner& corner : corners(rest, t)) {
+    Eigen::Matrix<double, 3, 9> difference;
+    for (int r = 0; r < 3; ++r) {
+      difference.middleCols<3>(3 * r) = -corner.turn.col(r) * corner.toward_k.transpose();
+      difference.row(r).segment<3>(3 * r) += corner.toward_j.transpose();
+    }
+    block += rest.sphericities[t] * difference.transpose() * difference;
+  }
+  return block;
+}
+
+}  // namespace
+
+void check_options(const ReshapeOptions& options, const Mesh& mesh) {
+  const ReshapeWeights& w = options.weights;
+  for (const double weight :
+       {w.normal, w.similarity, w.connect, w.sphericity, w.scale, w.regularizer, w.handle, w.straightness}) {
+    if (!(weight >= 0) || std::isinf(weight)) throw InvalidInput("Reshape: options.weights: not finite or negative");
+  }
+  if (w.regularizer == 0 || w.handle == 0) {
+    throw InvalidInput("Reshape: options.weights: regularizer and handle must be above 0");
+  }
+  if (!(options.feature_angle >= 0 && options.feature_angle <= std::numbers::pi)) {
+    throw InvalidInput("Reshape: options.feature_angle: not in [0, pi] radians");
+  }
+  if (options.pass_limit < 1) throw InvalidInput("Reshape: options.pass_limit: below 1");
+  if (!options.unit_box_curvatures) return;
+  if (options.unit_box_curvatures->rows() != mesh.triangles.rows() || !options.unit_box_curvatures->allFinite()) {
+    throw InvalidInput("Reshape: options.unit_box_curvatures: not a row of two finite numbers for each of the " +
+                       std::to_string(mesh.triangles.rows()) + " triangles");
+  }
+}
+
+void check_surface(const Mesh& mesh, const Edges& edges) {
+  // A height below 1e-10 of the longest side leaves the normal to rounding.
+  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto a = mesh.positions.row(mesh.triangles(t, k)), b = mesh.positions.row(mesh.triangles(t, (k + 1) % 3));
+      longest = std::max(longest, (a - b).squaredNorm());
+    }
+    if (!(areas.row(t).norm() > 1e-10 * longest)) {
+      throw InvalidInput("Reshape: triangle " + std::to_string(t) + " is degenerate (vertices " +
+                         std::to_string(mesh.triangles(t, 0)) + ", " + std::to_string(mesh.triangles(t, 1)) + ", " +
+                         std::to_string(mesh.triangles(t, 2)) + "); remove or remesh it");
+    }
+  }
+  for (int e = 0; e < edges.triangles.size(); ++e) {
+    const int beside = edges.triangles[e].size();
+    if (beside == 2) continue;
+    throw InvalidInput("Reshape: edge " + std::to_string(edges.vertices(e, 0)) + "-" +
+                       std::to_string(edges.vertices(e, 1)) + " has " + std::to_string(beside) +
+                       (beside == 1 ? " triangle: close the surface there" : " triangles: make the surface manifold"));
+  }
+}
+
+std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
+                                             int vertex_count) {
+  std::vector<StraightTriple> triples;
+  for (size_t c = 0; c < chains.size(); ++c) {
+    int edge_before = -1;
+    for (size_t i = 0; i + 1 < chains[c].size(); ++i) {
+      const int a = chains[c][i], b = chains[c][i + 1];
+      const bool exist = std::min(a, b) >= 0 && std::max(a, b) < vertex_count;
+      const int edge = exist ? edge_between(edges, a, b) : -1;
+      if (edge < 0) {
+        throw InvalidInput("Reshape: options.straight_chains: chain " + std::to_string(c) + ": vertices " +
+                           std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge");
+      }
+      if (i > 0) triples.push_back({chains[c][i - 1], a, b, edge_before, edge});
+      edge_before = edge;
+    }
+  }
+  return triples;
+}
+
+TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,
+                               const Curvatures& unit_box_curvatures) {
+  TransformStep::Rest rest;
+  rest.triangles = unit_mesh.triangles;
+  rest.edges = edges.vertices;
+  rest.triangle_edges = edges.triangle_edges;
+  rest.vertices = unit_mesh.positions;
+  rest.edge_vectors = edge_vectors(rest.vertices, edges);
+  rest.normals = unit_normals(rest.vertices, rest.triangles);
+  rest.mean_edge_length = mean_edge_length(rest.vertices, rest.triangles);
+  rest.normal_weight = options.weights.normal;
+  rest.connect_weight = options.weights.connect;
+  rest.scale_weight = options.weights.scale;
+  rest.regularizer_weight = options.weights.regularizer;
+  rest.sphericities.resize(rest.triangles.rows());
+  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
+    rest.sphericities[t] =
+        options.weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1));
+  }
+  add_pairs(rest, edges, options.feature_angle, options.weights.similarity);
+  return rest;
+}
+
+VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight) {
+  std::vector<std::pair<int, int>> couplings;
+  for (const auto& edge : rest.edges.rowwise()) couplings.emplace_back(edge[0], edge[1]);
+  for (const StraightTriple& triple : straight) {
+    if (triple.before != triple.after) couplings.emplace_back(triple.before, triple.after);
+  }
+  VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings), {}};
+  vertices.sphericity = sphericity_values(vertices.system, rest);
+  return vertices;
+}
+
+BlockSystem transform_system(const TransformStep::Rest& rest) {
+  std::vector<std::pair<int, int>> couplings;
+  for (const auto& pair : rest.pairs.rowwise()) couplings.emplace_back(pair[0], pair[1]);
+  BlockSystem system(static_cast<int>(rest.triangles.rows()), 3, couplings);
+  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) system.add(static_cast<int>(t), triangle_block(rest, t));
+  for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) {
+    const Vector3d d = rest.edge_vectors.row(rest.pair_edges[p]).normalized(), o = rest.pair_opposites.row(p);
+    const Matrix3d agree = rest.connect_weight * d * d.transpose() + rest.pair_similarities[p] * o * o.transpose();
+    Matrix9d own = Matrix9d::Zero();
+    for (int r = 0; r < 3; ++r) {
+      own.block<3, 3>(3 * r, 3 * r) = agree;
+      system.add(rest.pairs(p, 0), rest.pairs(p, 1), r, -agree);
+    }
+    system.add(rest.pairs(p, 0), own);
+    system.add(rest.pairs(p, 1), own);
+  }
+  return system;
+}
+
+}  // namespace swage

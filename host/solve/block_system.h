@@ -1,0 +1,55 @@
+// A sparse symmetric positive definite system whose unknowns come in groups, such as the three of a vertex.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace swage {
+
+/// The unknowns of a group stand in rows of three. Two groups couple row by row: through a 3 × 3 block that joins
+/// their first rows, the same or another for the second, and so on. So a vertex is a group of one row, and a
+/// triangle's 3 × 3 transform is a group of three.
+///
+/// Groups are kept in an order that fills the factor little, chosen once from the couplings. Values are added in
+/// place, and the factor reads them in place.
+class BlockSystem {
+ public:
+  /// `couplings`: pairs of different groups that share a term, in any order, repeats allowed.
+  BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings);
+
+  void set_zero() { values().setZero(); }
+  /// All values of the matrix, to keep a constant part and start the next assembly from it.
+  Eigen::Map<Eigen::VectorXd> values() { return {matrix_.valuePtr(), matrix_.nonZeros()}; }
+
+  /// Adds the symmetric `block`, as wide as a group, at (group, group).
+  void add(int group, const Eigen::Ref<const Eigen::MatrixXd>& block);
+  /// Adds `block` at (i, j) and its transpose at (j, i), for row `row` of the groups.
+  void add(int i, int j, int row, const Eigen::Matrix3d& block);
+
+  /// Throws Unsolvable, naming the group, where the matrix is not positive definite.
+  void factor();
+  /// The solution for a right-hand side of all groups one after the other. factor() comes first.
+  Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side) const;
+
+  Eigen::Index unknowns() const { return matrix_.rows(); }
+  /// Entries of the factor below its diagonal.
+  Eigen::Index factor_entries() const { return factor_->matrixL().nestedExpression().nonZeros(); }
+
+ private:
+  void order(int group_count, const std::vector<std::pair<int, int>>& couplings);
+  void lay_out();
+  /// Where the first entry of block (above, column's group) stands in each of the column's entries.
+  int offset(int above, int group) const;
+
+  int width_;                            // Unknowns of a group.
+  std::vector<int> place_;               // Group → its place in the order.
+  std::vector<std::vector<int>> above_;  // For each place the places before it that it couples to, ascending.
+  Eigen::SparseMatrix<double> matrix_;   // Upper triangle, groups in order.
+  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Upper, Eigen::NaturalOrdering<int>>;
+  std::unique_ptr<Factor> factor_;  // Made and its pattern analysed by the first factor().
+};
+
+}  // namespace swage
