@@ -34,11 +34,12 @@ struct Inverse {
 constexpr double kSingular = 1e-9;
 
 Inverse inverse(const Matrix3d& transform) {
-  const double stretch = std::max(transform.norm(), 1e-300);
-  if (std::abs(transform.determinant()) > kSingular * stretch * stretch * stretch) return {transform.inverse(), false};
-  // Least squares with a damping of 1e-3 of the stretch: bounded, and the inverse where there is one.
-  const Matrix3d damped = transform.transpose() * transform + 1e-6 * stretch * stretch * Matrix3d::Identity();
-  return {damped.inverse() * transform.transpose(), true};
+  const double stretch = std::max(transform.norm(), 1e-100);
+  const Matrix3d relative = transform / stretch;
+  if (std::abs(relative.determinant()) > kSingular) return {relative.inverse() / stretch, false};
+  // Least squares with a damping of 1e-3 of the stretch: bounded, and close to the inverse where there is one.
+  const Matrix3d damped = relative.transpose() * relative + 1e-6 * Matrix3d::Identity();
+  return {damped.inverse() * relative.transpose() / stretch, true};
 }
 
 class CpuTransform final : public TransformStep {

@@ -1,1 +1,54 @@
-int main() { return 0; }
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <iostream>
+#include <vector>
+
+#include "failure.h"
+#include "interrupt.h"
+#include "options.h"
+
+namespace swage::cli {
+namespace {
+
+void start_log() {
+  auto log = std::make_shared<spdlog::logger>("swage", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  log->set_pattern("swage: %l: %v");
+  spdlog::set_default_logger(std::move(log));
+}
+
+int run(int argc, char** argv) {
+  CLI::App program{"Edits the shape of triangle meshes the way a person would expect.", "swage"};
+  CommonOptions common;
+  const std::vector<Command> commands = {reshape_command(program, common), info_command(program, common),
+                                         demo_command(program, common)};
+  add_common_options(program, common);
+  for (const Command& command : commands) add_common_options(*command.app, common);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked_for_help_or_version) {
+    return program.exit(asked_for_help_or_version);
+  }
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    command.run();
+    return exit_done;
+  }
+  std::cerr << program.help();
+  return exit_wrong_usage;
+}
+
+}  // namespace
+}  // namespace swage::cli
+
+int main(int argc, char** argv) {
+  swage::cli::start_log();
+  swage::cli::watch_interrupts();
+  try {
+    return swage::cli::run(argc, argv);
+  } catch (...) {
+    return swage::cli::explain_failure();
+  }
+}

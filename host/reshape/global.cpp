@@ -74,7 +74,7 @@ Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest
   return system.values();
 }
 
-Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
+Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds) {
   Quadratic quadratic{vertices.system, Eigen::VectorXd::Zero(vertices.system.unknowns())};
@@ -84,8 +84,15 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
     add_straight(quadratic, triple, quadratics.target_lengths, straightness_weight);
   }
   for (const Holds& held : holds) add_holds(quadratic, held);
+  return quadratic.right_hand_side;
+}
+
+Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
+                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
+                         double straightness_weight, const std::vector<Holds>& holds) {
+  const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
   vertices.system.factor();
-  const Eigen::VectorXd solution = vertices.system.solve(quadratic.right_hand_side);
+  const Eigen::VectorXd solution = vertices.system.solve(right_hand_side);
   return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
 }
 

@@ -55,7 +55,7 @@ struct Iterate {
   Positions before;             ///< As the last pass found them.
   Transforms right_hand_sides;  ///< Of the transform step, for the positions last placed.
   TransformStep::EdgeQuadratics quadratics;
-  std::map<std::string, double> energy_by_term;
+  std::vector<std::map<std::string, double>> energy_by_term;  ///< Of each pass.
   int singular = 0;  ///< Most triangles in a pass whose transform had to be damped.
   std::map<std::string, double> seconds;
 };
@@ -73,7 +73,11 @@ BlockSystem transform_system(const TransformStep::Rest& rest);
 // global.cpp
 /// The sphericity term as values of the vertex step's matrix.
 Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest);
-/// Minimises the vertex step's quadratic (eq. 23 with section 4's terms).
+/// The vertex step's quadratic x' A x - 2 b' x (eq. 23 with section 4's terms): A into the system; returns b.
+Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest,
+                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
+                         double straightness_weight, const std::vector<Holds>& holds);
+/// Minimises it.
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds);

@@ -43,8 +43,9 @@ double place(ReshapePlan& plan, Iterate& iterate, Positions& positions) {
   positions = place_vertices(*plan.vertices, plan.rest, iterate.quadratics, plan.straight,
                              plan.options.weights.straightness, {iterate.handles});
   const TransformStep::Energy local = plan.step->fit_transforms(positions, iterate.right_hand_sides);
-  iterate.energy_by_term = energy_terms(local, positions, plan.straight, plan.options.weights, iterate.handles);
-  return sum(iterate.energy_by_term);
+  iterate.energy_by_term.push_back(
+      energy_terms(local, positions, plan.straight, plan.options.weights, iterate.handles));
+  return sum(iterate.energy_by_term.back());
 }
 
 void fit(ReshapePlan& plan, Iterate& iterate) {
@@ -54,7 +55,7 @@ void fit(ReshapePlan& plan, Iterate& iterate) {
 }
 
 void tell(const ReshapePlan& plan, const Iterate& iterate, Report& report) {
-  report.energy_by_term = iterate.energy_by_term;
+  if (report.passes > 0) report.energy_by_term = iterate.energy_by_term[static_cast<size_t>(report.best_pass)];
   report.seconds = iterate.seconds;
   report.seconds["precompute"] = plan.prepare_seconds;
   report.seconds["solve"] = std::accumulate(iterate.seconds.begin(), iterate.seconds.end(), 0.0,

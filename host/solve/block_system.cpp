@@ -2,6 +2,7 @@
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "swage/error.h"
@@ -92,28 +93,38 @@ void BlockSystem::factor() {
   }
   factor_->factorize(matrix_);
   // The factorisation stops at a zero pivot only: a negative or undefined one goes on as if nothing were.
-  Eigen::Index worst = 0;
-  const bool positive =
-      factor_->info() == Eigen::Success && factor_->vectorD().minCoeff(&worst) > 0 && factor_->vectorD().allFinite();
-  if (positive) return;
-  const auto group = std::find(place_.begin(), place_.end(), static_cast<int>(worst) / width_) - place_.begin();
+  const auto pivots = factor_->vectorD();
+  Eigen::Index first = 0;
+  while (first < pivots.size() && pivots[first] > 0) ++first;
+  if (first == pivots.size() && std::isfinite(pivots.sum())) return;
+  const auto group = std::find(place_.begin(), place_.end(), static_cast<int>(first) / width_) - place_.begin();
   throw Unsolvable("factor: the matrix of " + std::to_string(unknowns()) +
                    " unknowns is not positive definite, first seen at element " + std::to_string(group) +
                    "; look there for degenerate triangles or a part without a handle");
 }
 
 Eigen::VectorXd BlockSystem::solve(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side) const {
-  Eigen::VectorXd ordered(right_hand_side.size());
+  return as_given(factor_->solve(ordered(right_hand_side)));
+}
+
+Eigen::VectorXd BlockSystem::times(const Eigen::Ref<const Eigen::VectorXd>& vector) const {
+  return as_given(matrix_.selfadjointView<Eigen::Upper>() * ordered(vector));
+}
+
+Eigen::VectorXd BlockSystem::ordered(const Eigen::Ref<const Eigen::VectorXd>& vector) const {
+  Eigen::VectorXd result(vector.size());
   for (size_t g = 0; g < place_.size(); ++g) {
-    ordered.segment(place_[g] * width_, width_) =
-        right_hand_side.segment(static_cast<Eigen::Index>(g) * width_, width_);
+    result.segment(place_[g] * width_, width_) = vector.segment(static_cast<Eigen::Index>(g) * width_, width_);
   }
-  ordered = factor_->solve(ordered).eval();
-  Eigen::VectorXd solution(right_hand_side.size());
+  return result;
+}
+
+Eigen::VectorXd BlockSystem::as_given(const Eigen::VectorXd& ordered) const {
+  Eigen::VectorXd result(ordered.size());
   for (size_t g = 0; g < place_.size(); ++g) {
-    solution.segment(static_cast<Eigen::Index>(g) * width_, width_) = ordered.segment(place_[g] * width_, width_);
+    result.segment(static_cast<Eigen::Index>(g) * width_, width_) = ordered.segment(place_[g] * width_, width_);
   }
-  return solution;
+  return result;
 }
 
 }  // namespace swage

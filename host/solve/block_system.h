@@ -34,11 +34,17 @@ class BlockSystem {
   /// The solution for a right-hand side of all groups one after the other. factor() comes first.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side) const;
 
+  /// The matrix times a vector of all groups one after the other.
+  Eigen::VectorXd times(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
+
   Eigen::Index unknowns() const { return matrix_.rows(); }
   /// Entries of the factor below its diagonal.
   Eigen::Index factor_entries() const { return factor_->matrixL().nestedExpression().nonZeros(); }
 
  private:
+  /// Group after group as given ⇄ in the order of elimination.
+  Eigen::VectorXd ordered(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
+  Eigen::VectorXd as_given(const Eigen::VectorXd& ordered) const;
   void order(int group_count, const std::vector<std::pair<int, int>>& couplings);
   void lay_out();
   /// Where the first entry of block (above, column's group) stands in each of the column's entries.

@@ -18,11 +18,11 @@ struct CurvatureOptions {
 };
 
 /// Curvature of every triangle: the mean over its vertices off the cuts (all where none is off). A vertex's is that
-/// of the quadric z = a x² + b x y + c y² + d x + e y that fits its neighbourhood within its piece best; 0 where
-/// the neighbourhood is too small or degenerate to tell.
+/// of the quadric z = a x² + b x y + c y² + d x + e y that fits its neighbourhood within its piece best: the
+/// flattest of those where one coefficient is undetermined (a tube without inner rings); 0 where more are.
 ///
 /// Goldfeather and Interrante 2004 for the fit; Panozzo, Puppo and Rocca 2010 for the neighbourhood.
-/// Throws InvalidInput as check() does.
+/// Throws InvalidInput as check() does, and for a crease angle outside [0, pi] or rings below 1.
 Curvatures curvature(const PositionsRef& positions, const TrianglesRef& triangles,
                      const CurvatureOptions& options = {});
 

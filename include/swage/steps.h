@@ -75,8 +75,8 @@ class CurvatureStep {
 
   virtual ~CurvatureStep() = default;
 
-  /// #V × 2, k1 >= k2, 1 / unit of the positions; 0 where fewer than five neighbours or a degenerate placing of them
-  /// leave the fit undetermined.
+  /// #V × 2, k1 >= k2, 1 / unit of the positions. The flattest fitting quadric counts where its neighbours leave one
+  /// coefficient undetermined; 0 where more are, or there are fewer than five neighbours.
   virtual void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) = 0;
 };
 

@@ -1,0 +1,168 @@
+// Reshape, stage by stage and whole. Beside each whole solve stands the same solve as published, both systems
+// refactored in every pass by the same solver: their ratio is what factoring once is worth.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench_main.h"
+#include "plan.h"
+#include "shapes.h"
+
+namespace swage::bench {
+namespace {
+
+struct Model {
+  std::string name;
+  Mesh mesh;
+  ReshapeOptions options;
+  Gesture gesture;
+};
+
+Model lifted_cylinder(int segments, int rings) {
+  Model model{"generated_cylinder", test::cylinder(0.5, 1, segments, rings), {}, {}};
+  model.gesture.add(0, model.mesh.positions.row(0));
+  model.gesture.add(1, model.mesh.positions.row(1) + Eigen::RowVector3d(0, 0.5, 0));
+  return model;
+}
+
+/// The authors' gestures, where they are.
+std::vector<Model> reference_models() {
+  std::vector<Model> models;
+  for (const auto& [name, label] : {std::pair<std::string, std::string>{"cylinder_1kF", "def_v1"},
+                                    {"phone", "def_v1"},
+                                    {"cutlery_s26-1", "def_v1"},
+                                    {"e_car_extruded", "def_v1"},
+                                    {"espresso", "def_v1"}}) {
+    const std::filesystem::path stem = std::filesystem::path(SWAGE_SHARED) / "oracle/reshape" / name / name;
+    auto with = [&](const char* extension) { return stem.string() + extension; };
+    if (!std::filesystem::exists(with(".obj"))) continue;
+    Model model{name, read_mesh(with(".obj")).mesh, {}, {}};
+    model.options.unit_box_curvatures =
+        read_unit_box_curvatures(with(".fk"), static_cast<int>(model.mesh.triangles.rows()));
+    if (std::filesystem::exists(with(".straight"))) {
+      model.options.straight_chains =
+          read_straight_chains(with(".straight"), static_cast<int>(model.mesh.positions.rows()));
+    }
+    for (Gesture& gesture : read_gestures(with(".deform"), model.mesh.positions)) {
+      if (gesture.label == label) model.gesture = std::move(gesture);
+    }
+    models.push_back(std::move(model));
+  }
+  return models;
+}
+
+void prepare(benchmark::State& state, const Model& model) {
+  for (auto _ : state) Reshape(model.mesh.positions, model.mesh.triangles, model.options).prepare();
+  state.counters["triangles"] = static_cast<double>(model.mesh.triangles.rows());
+}
+
+/// What a plan holds, taken apart so that each step can be timed alone.
+struct Parts {
+  Edges edges;
+  TransformStep::Rest rest;
+  std::unique_ptr<TransformStep> step;
+  VertexSystem vertices;
+  BlockSystem transforms;
+  std::vector<StraightTriple> straight;
+  Holds handles;
+
+  explicit Parts(const Model& model)
+      : edges(edges_of(model.mesh.triangles)),
+        rest(rest_shape(
+            model.options, unit(model), edges,
+            model.options.unit_box_curvatures.value_or(curvature(unit(model).positions, model.mesh.triangles)))),
+        step(cpu_backend()->transform(rest)),
+        vertices(vertex_system(rest, {})),
+        transforms(transform_system(rest)),
+        handles{{0, 1}, rest.vertices.topRows(2), model.options.weights.handle} {}
+
+  static Mesh unit(const Model& model) {
+    return {unit_box(model.mesh.positions).into(model.mesh.positions), model.mesh.triangles};
+  }
+};
+
+void vertex_step(benchmark::State& state, const Model& model) {
+  Parts parts(model);
+  TransformStep::EdgeQuadratics quadratics;
+  const Transforms transforms = identities(parts.rest.triangles.rows());
+  for (auto _ : state) {
+    parts.step->fit_edges(transforms, quadratics);
+    benchmark::DoNotOptimize(
+        place_vertices(parts.vertices, parts.rest, quadratics, parts.straight, 0, {parts.handles}));
+  }
+  state.counters["unknowns"] = static_cast<double>(parts.vertices.system.unknowns());
+  state.counters["factor_entries"] = static_cast<double>(parts.vertices.system.factor_entries());
+}
+
+void transform_step(benchmark::State& state, const Model& model) {
+  Parts parts(model);
+  parts.transforms.factor();
+  Transforms sides;
+  for (auto _ : state) {
+    parts.step->fit_transforms(parts.rest.vertices, sides);
+    benchmark::DoNotOptimize(solve_transforms(parts.transforms, sides));
+  }
+  state.counters["unknowns"] = static_cast<double>(parts.transforms.unknowns());
+  state.counters["factor_entries"] = static_cast<double>(parts.transforms.factor_entries());
+}
+
+/// Seconds of the whole solves so far, factored once, by model.
+std::map<std::string, std::vector<double>>& whole_seconds() {
+  static std::map<std::string, std::vector<double>> seconds;
+  return seconds;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+ReshapeResult solve_timed(const Model& model, bool as_published, double& seconds) {
+  ReshapeOptions options = model.options;
+  options.refactor_every_pass = as_published;
+  const Stopwatch watch(seconds);
+  return reshape(model.mesh.positions, model.mesh.triangles, model.gesture, options);
+}
+
+void whole(benchmark::State& state, const Model& model, bool as_published) {
+  std::vector<double> own;
+  double passes = 0;
+  for (auto _ : state) {
+    double seconds = 0;
+    passes = solve_timed(model, as_published, seconds).report.passes;
+    state.SetIterationTime(seconds);
+    own.push_back(seconds);
+  }
+  state.counters["passes"] = passes;
+  if (!as_published) {
+    std::vector<double>& all = whole_seconds()[model.name];
+    all.insert(all.end(), own.begin(), own.end());
+  } else if (!whole_seconds()[model.name].empty()) {
+    state.counters["times_slower"] = median(own) / median(whole_seconds()[model.name]);
+  }
+}
+
+}  // namespace
+
+void register_all() {
+  static std::vector<Model> models = reference_models();
+  models.push_back(lifted_cylinder(64, 20));
+  for (const Model& model : models) {
+    auto add = [&](const std::string& stage, auto run) {
+      return benchmark::RegisterBenchmark((stage + "/" + model.name).c_str(), run)->Unit(benchmark::kMillisecond);
+    };
+    add("prepare", [&model](benchmark::State& state) { prepare(state, model); });
+    add("vertex_step", [&model](benchmark::State& state) { vertex_step(state, model); });
+    add("transform_step", [&model](benchmark::State& state) { transform_step(state, model); });
+    add("solve", [&model](benchmark::State& state) { whole(state, model, false); })->Iterations(3)->UseManualTime();
+    add("solve_as_published", [&model](benchmark::State& state) { whole(state, model, true); })
+        ->Iterations(1)
+        ->UseManualTime();
+  }
+}
+
+}  // namespace swage::bench

@@ -1,0 +1,106 @@
+#include "options.h"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdlib>
+#include <iostream>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "failure.h"
+#include "swage/error.h"
+
+namespace swage::cli {
+namespace {
+
+#ifdef _OPENMP
+constexpr const char* kOpenMp = "ON";
+#else
+constexpr const char* kOpenMp = "OFF";
+#endif
+
+std::string version_text() {
+  return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + "\nlicence: MIT";
+}
+
+std::string backend_name(const CommonOptions& common) {
+  if (!common.backend.empty()) return common.backend;
+  const char* from_environment = std::getenv("SWAGE_BACKEND");
+  return from_environment != nullptr && *from_environment != '\0' ? from_environment : "auto";
+}
+
+}  // namespace
+
+CLI::Validator between(double low, double high) {
+  const std::string range = fmt::format("{} to {}", low, high);
+  return {[=](std::string& text) {
+            double value = 0;
+            const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return good ? std::string() : "'" + text + "' is not a number from " + range;
+          },
+          range};
+}
+
+void add_common_options(CLI::App& app, CommonOptions& common) {
+  const std::string group = "Common options";
+  app.add_option("--backend", common.backend, "Where the local steps run: auto or cpu (SWAGE_BACKEND, else auto)")
+      ->group(group)
+      ->type_name("NAME");
+  app.add_option("--threads", common.threads, "Threads (as many as there are processors)")
+      ->group(group)
+      ->check(between(1, 1024))
+      ->type_name("N");
+  CLI::Option* quiet = app.add_flag("--quiet", common.quiet, "Log errors only, and draw no progress bar")->group(group);
+  app.add_flag("-v", common.verbose, "Log more")->group(group)->excludes(quiet);
+  app.set_help_flag("-h,--help", "Print this help")->group(group);
+  app.set_version_flag("--version", version_text, "Print the version, the optional parts and the licence")
+      ->group(group);
+}
+
+void apply(const CommonOptions& common) {
+  spdlog::set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
+#ifdef _OPENMP
+  if (common.threads > 0) omp_set_num_threads(common.threads);
+#endif
+}
+
+int threads_in_use() {
+#ifdef _OPENMP
+  return omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+std::shared_ptr<Backend> chosen_backend(const CommonOptions& common) {
+  const std::string name = backend_name(common);
+  if (name == "auto" || name == "cpu") return cpu_backend();
+  if (name == "opencl") throw Unavailable("--backend opencl: this build has no OpenCL backend; use auto or cpu");
+  throw WrongUsage("--backend (or SWAGE_BACKEND) is '" + name + "': use auto or cpu");
+}
+
+void write_stdout(const std::string& text) {
+  if (!(std::cout << text << std::flush)) {
+    throw UnwritableFile("stdout: nothing more can be written to it: is there room, and does somebody read it?");
+  }
+}
+
+void check_can_be_written(const std::filesystem::path& path, const char* option) {
+  namespace fs = std::filesystem;
+  if (path.empty()) throw WrongUsage(std::string(option) + ": name a file, or - for stdout");
+  if (path == kStdout) return;
+  std::error_code ignored;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, ignored)) {
+    throw WrongUsage(
+        fmt::format("{} {}: there is no folder {}: make it first", option, path.string(), folder.string()));
+  }
+  if (fs::is_directory(path, ignored)) {
+    throw WrongUsage(fmt::format("{} {}: that is a folder: name a file in it", option, path.string()));
+  }
+}
+
+}  // namespace swage::cli

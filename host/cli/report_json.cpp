@@ -1,0 +1,132 @@
+#include "report_json.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "adjacency.h"
+#include "measures.h"
+#include "swage/error.h"
+
+namespace swage::cli {
+namespace {
+
+struct Spread {
+  double mean = 0, max = 0;
+};
+
+/// Angles between rest and new normals, degrees. Triangles without area have no normal and are left out.
+Spread normal_error(const Mesh& rest, const Positions& positions) {
+  const Positions before = unit_normals(rest.positions, rest.triangles);
+  const Positions after = unit_normals(positions, rest.triangles);
+  Spread spread;
+  int count = 0;
+  for (Eigen::Index t = 0; t < before.rows(); ++t) {
+    const Eigen::Vector3d n = before.row(t), m = after.row(t);
+    if (n.isZero(0) || m.isZero(0)) continue;
+    const double angle = std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
+    spread.mean += angle;
+    spread.max = std::max(spread.max, angle);
+    ++count;
+  }
+  if (count > 0) spread.mean /= count;
+  return spread;
+}
+
+/// Largest distance of a handle from its target, in box diagonals.
+double handle_error(const Gesture& gesture, const Positions& rest, const Positions& positions) {
+  double error = 0;
+  for (const auto& [vertex, target] : gesture.targets) {
+    error = std::max(error, (positions.row(vertex).transpose() - target).norm());
+  }
+  return error / box_diagonal(rest);
+}
+
+int component_count(const Mesh& mesh) {
+  const std::vector<int> component = components(mesh.triangles, static_cast<int>(mesh.positions.rows()));
+  return 1 + *std::max_element(component.begin(), component.end());
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void add_run(Json& json, const ReshapeJob& job, const Mesh& mesh, const Backend& backend) {
+  json["command"] = "reshape";
+  json["version"] = SWAGE_VERSION;
+  json["input"] = job.mesh;
+  json["vertices"] = mesh.positions.rows();
+  json["triangles"] = mesh.triangles.rows();
+  json["components"] = component_count(mesh);
+  json["method"] = job.method;
+  json["solver"] = job.solver;
+  json["backend"] = backend.name();
+  json["device"] = backend.device();
+  json["threads"] = threads_in_use();
+}
+
+void add_solve(Json& json, const Report& report, std::vector<std::string>& warnings) {
+  json["iterations"] = report.passes;
+  json["best_iteration"] = report.best_pass;
+  json["stop"] = to_string(report.stop);
+  json["energy"] = finite(report.energy, "energy", warnings);
+  json["energy_by_term"] = Json::object();
+  for (const auto& [term, energy] : report.energy_by_term) {
+    json["energy_by_term"][term] = finite(energy, "energy_by_term " + term, warnings);
+  }
+}
+
+void add_errors(Json& json, const Mesh& rest, const Gesture& gesture, const ReshapeResult& result,
+                std::vector<std::string>& warnings) {
+  auto number = [&](double value, const char* name) { return finite(value, name, warnings); };
+  json["handle_error"] = number(handle_error(gesture, rest.positions, result.positions), "handle_error");
+  json["handle_error_unfinished"] =
+      number(handle_error(gesture, rest.positions, result.unfinished), "handle_error_unfinished");
+  json["finalised"] = result.finalised;
+  const Spread angles = normal_error(rest, result.positions);
+  json["normal_error_deg"] = {{"mean", number(angles.mean, "normal_error_deg mean")},
+                              {"max", number(angles.max, "normal_error_deg max")}};
+}
+
+}  // namespace
+
+Json finite(double value, const std::string& name, std::vector<std::string>& warnings) {
+  if (std::isfinite(value)) return value;
+  warnings.push_back(name + " is not finite");
+  return nullptr;
+}
+
+Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& gesture, const ReshapeResult& result,
+                 const Backend& backend, const RunSeconds& seconds) {
+  std::vector<std::string> warnings = file.warnings;
+  warnings.insert(warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
+  Json json;
+  add_run(json, job, file.mesh, backend);
+  add_solve(json, result.report, warnings);
+  add_errors(json, file.mesh, gesture, result, warnings);
+  json["seconds"] = {{"read", seconds.read},
+                     {"precompute", seconds.precompute},
+                     {"solve", seconds.solve},
+                     {"write", seconds.write},
+                     {"total", seconds.total}};
+  json["peak_memory_mb"] = peak_memory_mb();
+  json["warnings"] = warnings;
+  return json;
+}
+
+void write_json(const std::string& path, const Json& json) {
+  if (path.empty()) return;
+  // Names of files and labels need not be UTF-8.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (path == kStdout) return write_stdout(text);
+  write_file(path, text);
+}
+
+}  // namespace swage::cli

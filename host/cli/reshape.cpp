@@ -1,0 +1,140 @@
+#include "reshape.h"
+
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <numbers>
+#include <sstream>
+
+#include "failure.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "report_json.h"
+#include "swage/error.h"
+
+namespace swage::cli {
+namespace {
+
+ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, std::shared_ptr<Backend> backend) {
+  ReshapeOptions options;
+  options.feature_angle = job.feature_angle * std::numbers::pi / 180;
+  options.finalise = !job.no_finalise;
+  options.backend = std::move(backend);
+  if (!job.curvature.empty()) {
+    options.unit_box_curvatures = read_unit_box_curvatures(job.curvature, static_cast<int>(mesh.triangles.rows()));
+  }
+  if (!job.straight.empty()) {
+    options.straight_chains = read_straight_chains(job.straight, static_cast<int>(mesh.positions.rows()));
+  }
+  return options;
+}
+
+ReshapeResult solve(const Mesh& mesh, const Gesture& gesture, const ReshapeOptions& options,
+                    const CommonOptions& common, RunSeconds& seconds) {
+  ProgressBar bar(!common.quiet && !common.verbose);
+  const ProgressFn progress = [&](const Progress& now) {
+    bar.show(now);
+    spdlog::debug("{} {}: energy {}", now.stage, now.pass, now.energy);
+    return !interrupted();
+  };
+  const Stopwatch precompute;
+  Reshape plan(mesh.positions, mesh.triangles, options);
+  plan.prepare(progress);
+  seconds.precompute = precompute.seconds();
+  stop_if_interrupted();
+  const Stopwatch solve;
+  ReshapeResult result = plan.solve(gesture, progress);
+  seconds.solve = solve.seconds();
+  stop_if_interrupted();
+  return result;
+}
+
+void write_result(const std::string& path, const ReshapeJob& job, const MeshFile& file, const Positions& positions) {
+  if (path.empty()) return;
+  if (path != kStdout) return write_mesh(path, file, positions);
+  std::ostringstream text;
+  write_mesh(text, format_of(job.mesh), file, positions);
+  write_stdout(text.str());
+}
+
+void check_outputs(const ReshapeJob& job) {
+  if (job.output.empty() && job.json.empty()) {
+    throw WrongUsage("nothing to write: name the result mesh with -o FILE or the report with --json FILE");
+  }
+  if (!job.output.empty() && job.output == job.json) {
+    throw WrongUsage(fmt::format("-o and --json both name {}: give them different files", job.output));
+  }
+  if (!job.json.empty()) check_can_be_written(job.json, "--json");
+  if (job.output.empty()) return;
+  check_can_be_written(job.output, "-o");
+  if (job.output == kStdout) return;
+  try {
+    format_of(job.output);
+  } catch (const InvalidInput& e) {
+    throw WrongUsage(std::string("-o: ") + e.what());
+  }
+}
+
+void add_reshape_options(CLI::App& app, ReshapeJob& job) {
+  app.add_option("MESH", job.mesh, "The mesh to reshape: .obj .ply .stl .off")->required();
+  app.add_option("-o,--output", job.output, "Result mesh, format by extension; - for stdout")->type_name("FILE");
+  app.add_option("--json", job.json, "Report of the run; - for stdout")->type_name("FILE");
+  const std::string group = "Method";
+  app.add_option("--method", job.method, "Method (slippage)")->group(group)->check(CLI::IsMember({"slippage"}));
+  app.add_option("--solver", job.solver, "Solver (published)")->group(group)->check(CLI::IsMember({"published"}));
+  app.add_option("--curvature", job.curvature, "Principal curvatures, instead of computing them")
+      ->group(group)
+      ->type_name("FILE.fk");
+  app.add_option("--straight", job.straight, "Vertex chains that stay straight, one a line")
+      ->group(group)
+      ->type_name("FILE");
+  app.add_option("--feature-angle", job.feature_angle,
+                 "Surfaces beside an edge of a smaller interior angle stretch independently, degrees (105)")
+      ->group(group)
+      ->check(between(0, 180))
+      ->type_name("DEG");
+  app.add_flag("--no-finalise", job.no_finalise, "Leave dimples at handles as they are")->group(group);
+}
+
+}  // namespace
+
+ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const CommonOptions& common) {
+  check_outputs(job);
+  apply(common);
+  const std::shared_ptr<Backend> backend = chosen_backend(common);
+  RunSeconds seconds;
+  const Stopwatch total, read;
+  const MeshFile file = read_mesh(job.mesh);
+  for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
+  const Gesture gesture = recipe.on(file);
+  check(gesture, file.mesh.positions, file.mesh.triangles);
+  const ReshapeOptions options = solver_options(job, file.mesh, backend);
+  spdlog::debug("{}: {} vertices, {} triangles, {} handles", job.mesh, file.mesh.positions.rows(),
+                file.mesh.triangles.rows(), gesture.targets.size());
+  seconds.read = read.seconds();
+  stop_if_interrupted();
+
+  ReshapeResult result = solve(file.mesh, gesture, options, common, seconds);
+  for (const std::string& warning : result.report.warnings) spdlog::warn("{}", warning);
+
+  const Stopwatch write;
+  write_result(job.output, job, file, result.positions);
+  seconds.write = write.seconds();
+  seconds.total = total.seconds();
+  write_json(job.json, report_json(job, file, gesture, result, *backend, seconds));
+  spdlog::info("{}: {} passes ({}), {:.2f} s", job.mesh, result.report.passes, to_string(result.report.stop),
+               seconds.total);
+  return result;
+}
+
+Command reshape_command(CLI::App& program, const CommonOptions& common) {
+  CLI::App* app =
+      program.add_subcommand("reshape", "Moves handles; proportions change, orientation and structure stay");
+  auto job = std::make_shared<ReshapeJob>();
+  auto gesture = std::make_shared<GestureOptions>();
+  add_reshape_options(*app, *job);
+  add_gesture_options(*app, *gesture);
+  return {app, [job, gesture, &common] { run(*job, GestureRecipe(*gesture), common); }};
+}
+
+}  // namespace swage::cli

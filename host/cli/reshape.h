@@ -1,0 +1,27 @@
+// `swage reshape` and the part of it that `swage demo` shares.
+#pragma once
+
+#include <string>
+
+#include "gesture_options.h"
+#include "options.h"
+#include "swage/reshape.h"
+
+namespace swage::cli {
+
+struct ReshapeJob {
+  std::string mesh;
+  std::string output;  ///< Result mesh; empty for none, "-" for stdout.
+  std::string json;    ///< Report; likewise.
+  std::string method = "slippage";
+  std::string solver = "published";
+  std::string curvature;       ///< A .fk file; empty to compute.
+  std::string straight;        ///< A file of straight chains; empty for none.
+  double feature_angle = 105;  ///< Interior dihedral angle, degrees.
+  bool no_finalise = false;
+};
+
+/// Reads, solves, then writes. Throws before anything is written.
+ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const CommonOptions& common);
+
+}  // namespace swage::cli

@@ -1,2 +1,0 @@
-#include "swage/report.h"
-namespace swage {}

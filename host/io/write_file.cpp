@@ -1,0 +1,147 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <random>
+
+#include "swage/error.h"
+#include "swage/mesh_io.h"
+
+namespace swage {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw UnwritableFile(path.string() + ": cannot be written: " + why);
+}
+
+[[noreturn]] void refuse_errno(const fs::path& path, int error) {
+  refuse(path, std::string(std::strerror(error)) + "; check the folder, its permissions and the room left");
+}
+
+// Closes at the end of the scope; close() tells whether that went well.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  bool close() {
+    const int number = number_;
+    number_ = -1;
+    return number < 0 || ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+bool write_all(int descriptor, const std::string& content) {
+  size_t written = 0;
+  while (written < content.size()) {
+    const ssize_t step = ::write(descriptor, content.data() + written, content.size() - written);
+    if (step < 0 && errno == EINTR) continue;
+    if (step <= 0) return false;
+    written += static_cast<size_t>(step);
+  }
+  return true;
+}
+
+// Where symbolic links lead, though the last may lead to nothing yet.
+fs::path destination(fs::path path) {
+  constexpr int kMostLinks = 40;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(path)); ++links) {
+    if (links == kMostLinks) refuse(path, "too many symbolic links; name the file itself");
+    path = path.parent_path() / fs::read_symlink(path);
+  }
+  return path;
+}
+
+void write_directly(const fs::path& path, const std::string& content) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0 || !write_all(file.number(), content) || !file.close()) refuse_errno(path, errno);
+}
+
+// A new file beside `path`, removed at the end of the scope unless it took the place of `path`.
+class Temporary {
+ public:
+  Temporary(const fs::path& target, std::optional<mode_t> permissions) : target_(target), file_(create()) {
+    if (permissions && ::fchmod(file_.number(), *permissions) != 0) fail();
+  }
+  ~Temporary() {
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  void write(const std::string& content) {
+    if (!write_all(file_.number(), content) || !file_.close()) fail();
+  }
+
+  void rename() {
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
+    name_.clear();
+  }
+
+ private:
+  // Opened as any file is, so that the umask gives its permissions.
+  int create() {
+    constexpr int kTries = 100;
+    std::random_device random;
+    for (int k = 0; k < kTries; ++k) {
+      const fs::path name = target_.parent_path() / (".swage-" + std::to_string(random()) + ".tmp");
+      const int number = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (number >= 0) {
+        name_ = name;
+        return number;
+      }
+      if (errno != EEXIST) break;
+    }
+    refuse_errno(target_, errno);
+  }
+
+  // The destructor does not run where the constructor throws.
+  [[noreturn]] void fail() {
+    const int error = errno;
+    ::unlink(name_.c_str());
+    name_.clear();
+    refuse_errno(target_, error);
+  }
+
+  fs::path target_;
+  fs::path name_;
+  Descriptor file_;
+};
+
+void write_beside(const fs::path& path, const std::string& content, std::optional<mode_t> permissions) {
+  Temporary temporary(path, permissions);
+  temporary.write(content);
+  temporary.rename();
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, const std::string& content) {
+  try {
+    const fs::path target = destination(path);
+    struct stat present;
+    if (::stat(target.c_str(), &present) != 0) {
+      if (errno != ENOENT) refuse_errno(path, errno);
+      return write_beside(target, content, std::nullopt);
+    }
+    if (S_ISDIR(present.st_mode)) refuse(path, "it is a folder; name a file in it");
+    if (!S_ISREG(present.st_mode)) return write_directly(target, content);
+    if (::access(target.c_str(), W_OK) != 0) refuse(path, "it is read-only; change its permissions or the name");
+    write_beside(target, content, present.st_mode & 07777);
+  } catch (const fs::filesystem_error& error) {
+    refuse(path, error.code().message());
+  }
+}
+
+}  // namespace swage

@@ -1,0 +1,195 @@
+// What `swage info` finds in meshes made for it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "shapes.h"
+#include "swage/mesh_io.h"
+
+namespace swage::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+json info(const std::filesystem::path& path) {
+  const Outcome outcome = run({"info", path.string(), "--json", "-"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return json::parse(outcome.out);
+}
+
+json info(const Mesh& mesh) {
+  const TempFolder folder;
+  write_mesh(folder / "mesh.obj", mesh);
+  return info(folder / "mesh.obj");
+}
+
+json info_of_obj(const std::string& text) {
+  const TempFolder folder;
+  write_text(folder / "mesh.obj", text);
+  return info(folder / "mesh.obj");
+}
+
+/// All that can be wrong is 0 but for these.
+void expect_wrong_only(const json& facts, const std::map<std::string, int>& wrong) {
+  for (const char* name :
+       {"boundary_edges", "boundary_loops", "non_manifold_edges", "non_manifold_vertices", "inconsistent_edges",
+        "degenerate_triangles", "duplicate_triangles", "duplicate_vertices", "isolated_vertices"}) {
+    const auto expected = wrong.find(name);
+    EXPECT_EQ(facts[name], expected == wrong.end() ? 0 : expected->second) << name;
+  }
+}
+
+const std::string kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+TEST(Info, AGoodMeshHasNothingWrong) {
+  const json facts = info(box({1, 2, 3}, 4));
+  expect_wrong_only(facts, {});
+  EXPECT_EQ(facts["components"], 1);
+  EXPECT_EQ(facts["triangles"], 192);
+  EXPECT_NEAR(facts["volume"].get<double>(), 6, 1e-12);
+  EXPECT_NEAR(facts["diagonal"].get<double>(), std::sqrt(14.0), 1e-12);
+  EXPECT_EQ(facts["box"], json({{0, 0, 0}, {1, 2, 3}}));
+  EXPECT_EQ(facts["reshape"]["solves"], true);
+}
+
+TEST(Info, EdgesAreMeasured) {
+  const json facts = info_of_obj(kTetrahedron);
+  const double mean = (3 + 3 * std::sqrt(2.0)) / 6;
+  EXPECT_NEAR(facts["edge_length"]["mean"].get<double>(), mean, 1e-12);
+  EXPECT_NEAR(facts["edge_length"]["min_to_mean"].get<double>(), 1 / mean, 1e-12);
+  EXPECT_NEAR(facts["edge_length"]["max_to_mean"].get<double>(), std::sqrt(2.0) / mean, 1e-12);
+  EXPECT_NEAR(facts["smallest_angle_deg"].get<double>(), 45, 1e-9);
+}
+
+TEST(Info, ASheetIsOpen) {
+  const json facts = info(sheet(5));
+  expect_wrong_only(facts, {{"boundary_edges", 20}, {"boundary_loops", 1}});
+  EXPECT_TRUE(facts["volume"].is_null());
+  EXPECT_EQ(facts["reshape"]["solves"], false);
+  EXPECT_THAT(facts["reshape"]["words"].get<std::string>(), HasSubstr("refuses"));
+}
+
+TEST(Info, TwoSheetsHaveTwoLoops) {
+  const json facts = info(joined(sheet(2), transformed(sheet(2), 1, {5, 0, 0})));
+  expect_wrong_only(facts, {{"boundary_edges", 16}, {"boundary_loops", 2}});
+  EXPECT_EQ(facts["components"], 2);
+}
+
+TEST(Info, SeveralPartsNeedAHandleEach) {
+  const json facts = info(joined(sphere(1, 2), transformed(sphere(1, 2), 1, {5, 0, 0})));
+  expect_wrong_only(facts, {});
+  EXPECT_EQ(facts["components"], 2);
+  EXPECT_EQ(facts["reshape"]["solves"], true);
+  EXPECT_THAT(facts["reshape"]["words"].get<std::string>(), HasSubstr("each of its 2 connected parts"));
+}
+
+TEST(Info, AThirdTriangleAtAnEdge) {
+  const json facts = info_of_obj(kTetrahedron + "v 3 3 3\nf 1 2 5\n");
+  expect_wrong_only(facts, {{"boundary_edges", 2}, {"boundary_loops", 1}, {"non_manifold_edges", 1}});
+  EXPECT_EQ(facts["reshape"]["solves"], false);
+}
+
+TEST(Info, TwoFansAtAVertex) {
+  const json facts = info_of_obj(kTetrahedron + "v -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 6 5\nf 1 5 7\nf 5 6 7\nf 6 1 7\n");
+  expect_wrong_only(facts, {{"non_manifold_vertices", 1}});
+  EXPECT_EQ(facts["components"], 1);
+}
+
+TEST(Info, ATriangleTheWrongWayRound) {
+  const json facts = info_of_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 3 4\n");
+  expect_wrong_only(facts, {{"inconsistent_edges", 3}});
+  EXPECT_TRUE(facts["volume"].is_null());
+}
+
+TEST(Info, InsideOut) {
+  const json facts = info_of_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  expect_wrong_only(facts, {});
+  EXPECT_NEAR(facts["volume"].get<double>(), -1.0 / 6, 1e-12);
+}
+
+TEST(Info, ATriangleWithoutArea) {
+  // The edge 1-2 is split at 5 on one side, and a flat triangle closes the gap.
+  const json facts = info_of_obj(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\n"
+      "f 1 3 5\nf 5 3 2\nf 1 5 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  expect_wrong_only(facts, {{"degenerate_triangles", 1}});
+  EXPECT_EQ(facts["reshape"]["solves"], false);
+  EXPECT_THAT(facts["reshape"]["words"].get<std::string>(), HasSubstr("degenerate"));
+}
+
+TEST(Info, AFaceWithAVertexTwice) {
+  const json facts = info_of_obj(kTetrahedron + "f 1 2 2\n");
+  expect_wrong_only(facts, {{"degenerate_triangles", 1}});
+  EXPECT_EQ(facts["warnings"].size(), 1);
+}
+
+TEST(Info, ThingsTwice) {
+  const json facts = info_of_obj(kTetrahedron + "v 0 0 1\nf 2 3 4\n");
+  expect_wrong_only(
+      facts,
+      {{"duplicate_triangles", 1}, {"duplicate_vertices", 1}, {"isolated_vertices", 1}, {"non_manifold_edges", 3}});
+  EXPECT_EQ(facts["components"], 1);
+}
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> result(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      result.emplace_back();
+    } else {
+      result.back() += c;
+    }
+  }
+  return result;
+}
+
+TEST(Info, RealMeshesAreCountedAsOthersCountedThem) {
+  if (!has_shared()) GTEST_SKIP() << "no shared meshes";
+  const std::map<std::string, std::string> columns = {{"tris", "triangles"},
+                                                      {"comps", "components"},
+                                                      {"boundary", "boundary_edges"},
+                                                      {"nm_edges", "non_manifold_edges"},
+                                                      {"nm_verts", "non_manifold_vertices"},
+                                                      {"misoriented", "inconsistent_edges"},
+                                                      {"dup_verts", "duplicate_vertices"},
+                                                      {"isolated_verts", "isolated_vertices"}};
+  std::istringstream index(read_text(shared("data/meshes/index.csv")));
+  std::string line;
+  std::getline(index, line);
+  const std::vector<std::string> names = fields(line);
+  int compared = 0;
+  while (std::getline(index, line)) {
+    const std::vector<std::string> row = fields(line);
+    std::map<std::string, std::string> mesh;
+    for (size_t i = 0; i < row.size(); ++i) mesh[names[i]] = row[i];
+    if (mesh["split"] != "dev" || mesh["class"] > "C") continue;
+    const json facts = info(shared("data/meshes") / mesh["file"].substr(std::string("dev/").size()));
+    for (const auto& [column, name] : columns) {
+      EXPECT_EQ(facts[name], std::stoi(mesh[column])) << mesh["file"] << ' ' << name;
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 50);
+}
+
+TEST(Info, TheTableSaysTheSameInWords) {
+  const TempFolder folder;
+  write_mesh(folder / "sheet.obj", sheet(5));
+  const Outcome outcome = run({"info", (folder / "sheet.obj").string(), "--json", (folder / "facts.json").string()});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("boundary edges +20\n"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("boundary loops +1\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("reshape refuses it"));
+  EXPECT_EQ(json::parse(read_text(folder / "facts.json"))["boundary_edges"], 20);
+}
+
+}  // namespace
+}  // namespace swage::test

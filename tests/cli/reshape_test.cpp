@@ -1,0 +1,221 @@
+// What `swage reshape` writes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "swage/mesh_io.h"
+
+namespace swage::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A box whose top is pulled up by 0.5.
+class Reshaping : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(box_, box_obj());
+    write_text(folder_ / "pull.deform", R"([{"label": "pull", "displacements": {"0": [0, 0, 0]}}])");
+  }
+
+  Outcome reshape(const Arguments& more) const {
+    Arguments arguments{"reshape", box_.string(), "--pin", "z<=0", "--move", "z>=2=0,0,0.5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+
+  TempFolder folder_;
+  std::filesystem::path box_ = folder_ / "box.obj";
+  std::filesystem::path result_ = folder_ / "result.obj";
+};
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> result;
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+bool is_moving(const std::string& line) { return line.starts_with("v ") || line.starts_with("vn "); }
+
+TEST_F(Reshaping, OnlyVerticesAndNormalsChange) {
+  ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
+  const std::vector<std::string> before = lines(read_text(box_)), after = lines(read_text(result_));
+  ASSERT_EQ(before.size(), after.size());
+  int changed = 0;
+  for (size_t i = 0; i < before.size(); ++i) {
+    if (before[i] == after[i]) continue;
+    ++changed;
+    EXPECT_TRUE(is_moving(before[i]) && is_moving(after[i])) << before[i] << " became " << after[i];
+  }
+  EXPECT_GT(changed, 8);
+  EXPECT_EQ(names_in(folder_.path()), (std::vector<std::string>{"box.obj", "pull.deform", "result.obj"}));
+}
+
+TEST_F(Reshaping, HandlesArrive) {
+  ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
+  const Positions rest = read_mesh(box_).mesh.positions, now = read_mesh(result_).mesh.positions;
+  int moved = 0;
+  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+    if (rest(v, 2) != 0 && rest(v, 2) != 2) continue;
+    const Eigen::RowVector3d target = rest.row(v) + Eigen::RowVector3d(0, 0, rest(v, 2) == 2 ? 0.5 : 0);
+    EXPECT_LT((now.row(v) - target).norm(), 1e-3) << "vertex " << v;
+    moved += rest(v, 2) == 2;
+  }
+  EXPECT_EQ(moved, 16);
+}
+
+TEST_F(Reshaping, StdoutHoldsWhatAFileWould) {
+  ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
+  const Outcome outcome = reshape({"-o", "-"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, read_text(result_));
+}
+
+TEST_F(Reshaping, TheInputMayBeOverwritten) {
+  ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
+  ASSERT_EQ(reshape({"-o", box_.string()}).code, 0);
+  EXPECT_EQ(read_text(box_), read_text(result_));
+}
+
+TEST_F(Reshaping, OtherFormatsHoldTheSamePositions) {
+  ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
+  const Positions expected = read_mesh(result_).mesh.positions;
+  for (const char* name : {"result.ply", "result.OFF"}) {
+    ASSERT_EQ(reshape({"-o", (folder_ / name).string()}).code, 0);
+    EXPECT_EQ(read_mesh(folder_ / name).mesh.positions, expected) << name;
+  }
+}
+
+TEST_F(Reshaping, AReportHasItsKeys) {
+  const Outcome outcome = reshape({"--json", "-", "--threads", "2"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  for (const char* key : {"command",        "version",
+                          "input",          "vertices",
+                          "triangles",      "components",
+                          "method",         "solver",
+                          "backend",        "device",
+                          "threads",        "iterations",
+                          "best_iteration", "stop",
+                          "energy",         "handle_error",
+                          "energy_by_term", "handle_error_unfinished",
+                          "finalised",      "normal_error_deg",
+                          "seconds",        "peak_memory_mb",
+                          "warnings"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+    EXPECT_FALSE(report.value(key, json()).is_null()) << key;
+  }
+  EXPECT_EQ(report["vertices"], 56);
+  EXPECT_EQ(report["triangles"], 108);
+  EXPECT_EQ(report["components"], 1);
+  EXPECT_EQ(report["input"], box_.string());
+  EXPECT_EQ(report["method"], "slippage");
+  EXPECT_LT(report["best_iteration"], report["iterations"]);
+  EXPECT_GT(report["peak_memory_mb"], 1);
+  EXPECT_TRUE(report["warnings"].empty());
+}
+
+TEST_F(Reshaping, AReportAddsUp) {
+  const json report = json::parse(reshape({"--json", "-"}).out);
+  double energy = 0, seconds = 0;
+  for (const auto& [term, value] : report["energy_by_term"].items()) energy += value.get<double>();
+  EXPECT_NEAR(report["energy"].get<double>(), energy, 1e-9 * energy);
+  for (const char* part : {"read", "precompute", "solve", "write"}) {
+    EXPECT_GE(report["seconds"][part], 0) << part;
+    seconds += report["seconds"][part].get<double>();
+  }
+  EXPECT_LE(seconds, report["seconds"]["total"].get<double>() + 1e-3);
+}
+
+TEST_F(Reshaping, ErrorsInAReportAreThoseOfTheResult) {
+  ASSERT_EQ(reshape({"-o", result_.string(), "--json", (folder_ / "report.json").string()}).code, 0);
+  const json report = json::parse(read_text(folder_ / "report.json"));
+  const Positions rest = read_mesh(box_).mesh.positions, now = read_mesh(result_).mesh.positions;
+  double farthest = 0;
+  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+    if (rest(v, 2) != 0 && rest(v, 2) != 2) continue;
+    const Eigen::RowVector3d target = rest.row(v) + Eigen::RowVector3d(0, 0, rest(v, 2) == 2 ? 0.5 : 0);
+    farthest = std::max(farthest, (now.row(v) - target).norm());
+  }
+  EXPECT_NEAR(report["handle_error"].get<double>(), farthest / std::sqrt(6.0), 1e-9);
+  // A box pulled along its axis keeps its normals.
+  EXPECT_LT(report["normal_error_deg"]["max"], 1);
+  EXPECT_LE(report["normal_error_deg"]["mean"], report["normal_error_deg"]["max"]);
+}
+
+TEST_F(Reshaping, AGestureFileDoesWhatTheLineDoes) {
+  const MeshFile box = read_mesh(box_);
+  json displacements;
+  for (Eigen::Index v = 0; v < box.mesh.positions.rows(); ++v) {
+    const double z = box.mesh.positions(v, 2);
+    if (z == 0 || z == 2) displacements[std::to_string(v)] = {0, 0, z == 2 ? 0.5 / std::sqrt(6.0) : 0};
+  }
+  const json gestures = {{{"label", "other"}, {"displacements", {{"0", {0, 0, 0}}}}},
+                         {{"label", "pull:up"}, {"displacements", displacements}}};
+  write_text(folder_ / "two.deform", gestures.dump());
+  ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
+  const std::string by_file = (folder_ / "by_file.obj").string();
+  const std::string gesture = (folder_ / "two.deform").string() + ":pull:up";
+  ASSERT_EQ(run({"reshape", box_.string(), "--gesture", gesture, "-o", by_file}).code, 0);
+  const Positions expected = read_mesh(result_).mesh.positions;
+  EXPECT_LT((read_mesh(by_file).mesh.positions - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(Reshaping, AFileWithOneGestureNeedsNoLabel) {
+  const std::string gesture = (folder_ / "pull.deform").string();
+  for (const std::string& choice : {gesture, gesture + ":pull"}) {
+    const Outcome outcome = run({"reshape", box_.string(), "--gesture", choice, "-o", result_.string()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Positions moved = read_mesh(result_).mesh.positions - read_mesh(box_).mesh.positions;
+    EXPECT_LT(moved.cwiseAbs().maxCoeff(), 1e-12) << "one anchor moves nothing";
+  }
+}
+
+TEST_F(Reshaping, IdenticalHandlesMayMeet) {
+  const Outcome outcome = reshape({"--pin", "z<=0&x<=0", "--move", "z>=2&y<=0=0,0,0.5", "-o", result_.string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(Reshaping, ThreadsDoNotChangeTheResult) {
+  const Outcome one = reshape({"-o", "-", "--threads", "1"}), two = reshape({"-o", "-", "--threads", "2"});
+  EXPECT_EQ(one.code, 0);
+  EXPECT_EQ(one.out, two.out);
+}
+
+TEST_F(Reshaping, CommonOptionsStandBeforeOrAfterTheCommand) {
+  const Outcome before = run({"--threads", "1", "--quiet", "reshape", box_.string(), "--pin", "0", "--json", "-"});
+  ASSERT_EQ(before.code, 0) << before.err;
+  EXPECT_EQ(json::parse(before.out)["threads"], 1);
+  EXPECT_EQ(before.err, "");
+}
+
+TEST_F(Reshaping, QuietLogsErrorsOnly) {
+  EXPECT_THAT(reshape({"-o", result_.string()}).err, HasSubstr("passes"));
+  EXPECT_EQ(reshape({"-o", result_.string(), "--quiet"}).err, "");
+}
+
+TEST_F(Reshaping, WarningsOfTheFileAreInTheReport) {
+  write_text(box_, box_obj() + "f 1 2\n");
+  const Outcome outcome = reshape({"--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["warnings"].size(), 1);
+  EXPECT_THAT(outcome.err, HasSubstr("swage: warning: "));
+}
+
+TEST_F(Reshaping, CurvatureAndChainsAreTaken) {
+  std::string flat, chain = "0 1\n";
+  for (int t = 0; t < 108; ++t) flat += "0 0\n";
+  write_text(folder_ / "box.fk", flat);
+  write_text(folder_ / "box.straight", chain);
+  const Outcome outcome = reshape({"-o", "-", "--curvature", (folder_ / "box.fk").string(), "--straight",
+                                   (folder_ / "box.straight").string(), "--feature-angle", "100", "--no-finalise"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+}  // namespace
+}  // namespace swage::test

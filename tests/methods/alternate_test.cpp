@@ -1,0 +1,97 @@
+#include "alternate.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "swage/error.h"
+
+namespace swage {
+namespace {
+
+/// Passes with these energies, each moving one vertex by these lengths.
+struct Script {
+  std::vector<double> energies;
+  std::vector<double> movements;
+  int passes = 0;
+  int fits = 0;
+
+  Alternation steps() {
+    return {[this](Positions& positions) {
+              positions(0, 0) += movements[static_cast<size_t>(passes)];
+              return energies[static_cast<size_t>(passes++)];
+            },
+            [this](const Positions&) { ++fits; }};
+  }
+};
+
+Positions origin() { return Positions::Zero(1, 3); }
+
+TEST(Alternate, StopsWhereTheEnergyRisesAndKeepsTheBetter) {
+  Script script{{5, 9, 4, 4.5}, {1, 1, 1, 1}};
+  Positions positions = origin();
+  const Report report = alternate({}, {}, positions, script.steps());
+  EXPECT_EQ(report.stop, Termination::energy_rose);
+  EXPECT_EQ(report.passes, 4);
+  EXPECT_EQ(report.best_pass, 2);
+  EXPECT_EQ(report.energy, 4);
+  EXPECT_EQ(positions(0, 0), 3);
+  EXPECT_EQ(script.fits, 3);
+}
+
+TEST(Alternate, AnEnergyThatStandsStillHasRisen) {
+  Script script{{5, 4, 4}, {1, 1, 1}};
+  Positions positions = origin();
+  EXPECT_EQ(alternate({}, {}, positions, script.steps()).stop, Termination::energy_rose);
+}
+
+TEST(Alternate, StopsWhereTheEnergySettles) {
+  StopRule stop;
+  stop.energy_drop = 0.5;
+  Script script{{9, 8.9, 7, 6.6}, {1, 1, 1, 1}};
+  Positions positions = origin();
+  const Report report = alternate(stop, {}, positions, script.steps());
+  EXPECT_EQ(report.stop, Termination::energy_settled);
+  EXPECT_EQ(report.best_pass, 3);
+  EXPECT_EQ(positions(0, 0), 4);
+}
+
+TEST(Alternate, StopsWhereNothingMoves) {
+  StopRule stop;
+  stop.movement = 0.1;
+  Script script{{9, 8, 7, 6}, {0.01, 0.01, 0.2, 0.05}};
+  Positions positions = origin();
+  const Report report = alternate(stop, {}, positions, script.steps());
+  EXPECT_EQ(report.stop, Termination::moved_little);
+  EXPECT_EQ(report.passes, 4);
+  EXPECT_NEAR(report.movements.back(), 0.05, 1e-15);
+}
+
+TEST(Alternate, StopsAtThePassLimitEvenBeforeTheFirstTest) {
+  StopRule stop;
+  stop.pass_limit = 2;
+  Script script{{9, 10}, {1, 1}};
+  Positions positions = origin();
+  const Report report = alternate(stop, {}, positions, script.steps());
+  EXPECT_EQ(report.stop, Termination::pass_limit);
+  EXPECT_EQ(report.passes, 2);
+}
+
+TEST(Alternate, ACancelKeepsTheLastCompletePass) {
+  Script script{{9, 8, 7}, {1, 1, 1}};
+  Positions positions = origin();
+  const Report report = alternate(
+      {}, [](const Progress& p) { return p.pass < 2; }, positions, script.steps());
+  EXPECT_EQ(report.stop, Termination::cancelled);
+  EXPECT_EQ(report.passes, 2);
+  EXPECT_EQ(positions(0, 0), 2);
+}
+
+TEST(Alternate, AnUndefinedEnergyIsAnError) {
+  Script script{{std::numeric_limits<double>::quiet_NaN()}, {1}};
+  Positions positions = origin();
+  EXPECT_THROW(alternate({}, {}, positions, script.steps()), Unsolvable);
+}
+
+}  // namespace
+}  // namespace swage
