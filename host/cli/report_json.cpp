@@ -20,21 +20,22 @@ struct Spread {
   double mean = 0, max = 0;
 };
 
-/// Angles between rest and new normals, degrees. Triangles without area have no normal and are left out.
+/// Angles between rest and new normals, degrees, the mean weighted by rest area: so it does not depend on how the
+/// surface is cut into triangles. Those that lost their area have no normal and are left out.
 Spread normal_error(const Mesh& rest, const Positions& positions) {
-  const Positions before = unit_normals(rest.positions, rest.triangles);
-  const Positions after = unit_normals(positions, rest.triangles);
+  const Positions before = area_vectors(rest.positions, rest.triangles);
+  const Positions after = area_vectors(positions, rest.triangles);
   Spread spread;
-  int count = 0;
+  double area = 0;
   for (Eigen::Index t = 0; t < before.rows(); ++t) {
     const Eigen::Vector3d n = before.row(t), m = after.row(t);
     if (n.isZero(0) || m.isZero(0)) continue;
     const double angle = std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
-    spread.mean += angle;
+    spread.mean += n.norm() * angle;
     spread.max = std::max(spread.max, angle);
-    ++count;
+    area += n.norm();
   }
-  if (count > 0) spread.mean /= count;
+  if (area > 0) spread.mean /= area;
   return spread;
 }
 

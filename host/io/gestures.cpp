@@ -118,7 +118,8 @@ std::vector<Gesture> read_gestures(const std::filesystem::path& path, const Posi
   const Input input = slurp(path);
   KeyWatch watch;
   const Json list = parse(input, watch);
-  if (!list.is_array() || list.empty()) refuse(input, "is not a JSON list of gestures; mend it");
+  if (!list.is_array()) refuse(input, "is not a JSON list of gestures; mend it");
+  if (list.empty()) refuse(input, "holds no gesture; add one");
   std::vector<Gesture> gestures;
   for (const Json& item : list) gestures.push_back(gesture_of(input, item, gestures.size(), rest));
   refuse_repeated(input, watch, gestures);

@@ -60,9 +60,11 @@ struct Iterate {
   std::map<std::string, double> seconds;
 };
 
-// prepare.cpp
+// check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);
 void check_surface(const Mesh& mesh, const Edges& edges);
+
+// prepare.cpp
 std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
                                              int vertex_count);
 TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,

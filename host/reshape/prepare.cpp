@@ -1,4 +1,4 @@
-// All that depends on the rest shape alone.
+// What the steps need of the rest shape.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -103,50 +103,6 @@ Matrix9d triangle_block(const TransformStep::Rest& rest, Eigen::Index t) {
 }
 
 }  // namespace
-
-void check_options(const ReshapeOptions& options, const Mesh& mesh) {
-  const ReshapeWeights& w = options.weights;
-  for (const double weight :
-       {w.normal, w.similarity, w.connect, w.sphericity, w.scale, w.regularizer, w.handle, w.straightness}) {
-    if (!(weight >= 0) || std::isinf(weight)) throw InvalidInput("Reshape: options.weights: not finite or negative");
-  }
-  if (w.regularizer == 0 || w.handle == 0) {
-    throw InvalidInput("Reshape: options.weights: regularizer and handle must be above 0");
-  }
-  if (!(options.feature_angle >= 0 && options.feature_angle <= std::numbers::pi)) {
-    throw InvalidInput("Reshape: options.feature_angle: not in [0, pi] radians");
-  }
-  if (options.pass_limit < 1) throw InvalidInput("Reshape: options.pass_limit: below 1");
-  if (!options.unit_box_curvatures) return;
-  if (options.unit_box_curvatures->rows() != mesh.triangles.rows() || !options.unit_box_curvatures->allFinite()) {
-    throw InvalidInput("Reshape: options.unit_box_curvatures: not a row of two finite numbers for each of the " +
-                       std::to_string(mesh.triangles.rows()) + " triangles");
-  }
-}
-
-void check_surface(const Mesh& mesh, const Edges& edges) {
-  // A height below 1e-10 of the longest side leaves the normal to rounding.
-  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    double longest = 0;
-    for (int k = 0; k < 3; ++k) {
-      const auto a = mesh.positions.row(mesh.triangles(t, k)), b = mesh.positions.row(mesh.triangles(t, (k + 1) % 3));
-      longest = std::max(longest, (a - b).squaredNorm());
-    }
-    if (!(areas.row(t).norm() > 1e-10 * longest)) {
-      throw InvalidInput("Reshape: triangle " + std::to_string(t) + " is degenerate (vertices " +
-                         std::to_string(mesh.triangles(t, 0)) + ", " + std::to_string(mesh.triangles(t, 1)) + ", " +
-                         std::to_string(mesh.triangles(t, 2)) + "); remove or remesh it");
-    }
-  }
-  for (int e = 0; e < edges.triangles.size(); ++e) {
-    const int beside = edges.triangles[e].size();
-    if (beside == 2) continue;
-    throw InvalidInput("Reshape: edge " + std::to_string(edges.vertices(e, 0)) + "-" +
-                       std::to_string(edges.vertices(e, 1)) + " has " + std::to_string(beside) +
-                       (beside == 1 ? " triangle: close the surface there" : " triangles: make the surface manifold"));
-  }
-}
 
 std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
                                              int vertex_count) {

@@ -54,7 +54,7 @@ struct ReshapePlan;  ///< What is kept of a mesh between solves.
 /// Reshapes one mesh, any number of times.
 class Reshape {
  public:
-  /// Throws InvalidInput where check(positions, triangles) does, an edge has one triangle or more than two, a
+  /// Throws InvalidInput where check(positions, triangles) does, an edge has not two triangles of one orientation, a
   /// triangle is degenerate, or an option is out of its range.
   Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options = {});
   ~Reshape();

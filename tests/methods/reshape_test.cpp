@@ -246,7 +246,10 @@ TEST(ReshapeRefuses, WhatItCannotSolve) {
   Mesh fin = test::box({1, 1, 1}, 2);
   fin.triangles.conservativeResize(fin.triangles.rows() + 1, 3);
   fin.triangles.bottomRows(1) << fin.triangles(0, 0), fin.triangles(0, 1), fin.triangles(5, 2);
-  EXPECT_NE(refusal(fin).find("triangle"), std::string::npos);
+  EXPECT_NE(refusal(fin).find("has 3 triangles"), std::string::npos);
+  Mesh turned = test::sphere(1, 1);
+  std::swap(turned.triangles(9, 0), turned.triangles(9, 1));
+  EXPECT_NE(refusal(turned).find("opposite orientation"), std::string::npos);
   Mesh needle = test::sphere(1, 1);
   needle.positions.row(needle.triangles(4, 0)) = needle.positions.row(needle.triangles(4, 1));
   EXPECT_NE(refusal(needle).find("is degenerate"), std::string::npos);
