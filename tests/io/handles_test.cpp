@@ -130,7 +130,7 @@ TEST(Gestures, BadFilesAreRefusedNamingGestureAndVertex) {
       {"", {"JSON"}},
       {"[\n{]", {"line 2", "JSON"}},
       {"{}", {"list of gestures"}},
-      {"[]", {"list of gestures"}},
+      {"[]", {"holds no gesture"}},
       {"[3]", {"gesture 1"}},
       {R"([{"displacements": {}}])", {"gesture 1", "label"}},
       {R"([{"label": 7, "displacements": {}}])", {"gesture 1", "label"}},
