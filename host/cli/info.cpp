@@ -23,10 +23,6 @@ std::string needs(const Facts& facts) {
   std::string words = "reshape solves it directly";
   const int pieces = facts.components + facts.isolated_vertices;
   if (pieces > 1) words += fmt::format(", where each of its {} connected parts has a handle", pieces);
-  if (facts.inconsistent_edges > 0) {
-    words +=
-        fmt::format("; it takes the {} edges whose triangles face opposite ways for creases", facts.inconsistent_edges);
-  }
   return words;
 }
 
