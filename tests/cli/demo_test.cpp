@@ -89,6 +89,10 @@ TEST(DemoFolder, AFileInTheWayExitsWith4) {
 /// A reshape of the chair that draws its progress on a terminal.
 class Watched : public Demo {
  protected:
+  void SetUp() override {
+    if (!Terminal::exists()) GTEST_SKIP() << "this machine has no pseudo-terminals";
+  }
+
   Running begin(const Terminal& terminal, const Arguments& more = {}) const {
     Arguments arguments{"reshape", file("rest.obj").string(),      "--gesture", file("gesture.deform").string(),
                         "-o",      (out_ / "result.obj").string(), "--json",    (out_ / "report.json").string()};

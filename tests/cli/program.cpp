@@ -70,6 +70,12 @@ Outcome run(const Arguments& arguments, const std::vector<std::string>& environm
   return outcome;
 }
 
+bool Terminal::exists() {
+  const int end = posix_openpt(O_RDWR | O_NOCTTY);
+  if (end >= 0) close(end);
+  return end >= 0;
+}
+
 Terminal::Terminal() : end_(posix_openpt(O_RDWR | O_NOCTTY)) {
   if (end_ < 0 || grantpt(end_) != 0 || unlockpt(end_) != 0) throw std::runtime_error("no pseudo-terminal");
 }

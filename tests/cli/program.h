@@ -34,6 +34,8 @@ Outcome run(const Arguments& arguments, const std::vector<std::string>& environm
 /// A pseudo-terminal, whose other end is a file that a program can write to.
 class Terminal {
  public:
+  /// Whether this machine has pseudo-terminals: a bare root folder may not.
+  static bool exists();
   Terminal();
   ~Terminal();
   Terminal(const Terminal&) = delete;
