@@ -25,6 +25,9 @@ Row9 row(const Matrix3d& matrix) {
   return entries;
 }
 
+/// Below so many elements a pass is over sooner than the threads have met, on a busy machine far sooner.
+constexpr Eigen::Index kWorthThreads = 20000;
+
 struct Inverse {
   Matrix3d matrix;
   bool damped;
@@ -67,18 +70,18 @@ class CpuTransform final : public TransformStep {
     quadratics.blocks.resize(edge_count, 6);
     quadratics.right_hand_sides.resize(edge_count, 3);
     quadratics.target_lengths.resize(edge_count);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (edge_count > kWorthThreads)
     for (Eigen::Index e = 0; e < edge_count; ++e) fit_edge(e, quadratics);
   }
 
   Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) override {
     vectors_.resize(rest_.edges.rows(), 3);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (rest_.edges.rows() > kWorthThreads)
     for (Eigen::Index e = 0; e < rest_.edges.rows(); ++e) {
       vectors_.row(e) = positions.row(rest_.edges(e, 1)) - positions.row(rest_.edges(e, 0));
     }
     right_hand_sides.resize(rest_.triangles.rows(), 9);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (rest_.triangles.rows() > kWorthThreads)
     for (Eigen::Index t = 0; t < rest_.triangles.rows(); ++t) right_hand_sides.row(t) = right_hand_side(t);
     const Energy reached = energy(positions);
     length_weights_ = vectors_.rowwise().norm().unaryExpr([this](double l) { return length_weight(l); });
@@ -101,7 +104,7 @@ class CpuTransform final : public TransformStep {
 
   void invert(EdgeQuadratics& quadratics) {
     int singular = 0;
-#pragma omp parallel for schedule(static) reduction(+ : singular)
+#pragma omp parallel for schedule(static) reduction(+ : singular) if (transforms_.rows() > kWorthThreads)
     for (Eigen::Index t = 0; t < transforms_.rows(); ++t) {
       const Inverse result = inverse(matrix(transforms_, t));
       inverses_.row(t) = row(result.matrix);
@@ -240,7 +243,7 @@ class CpuTransform final : public TransformStep {
   static double add_up(Eigen::Index count, const Term& term) {
     constexpr Eigen::Index kBlock = 1024;
     Eigen::VectorXd sums = Eigen::VectorXd::Zero((count + kBlock - 1) / kBlock);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count > kWorthThreads)
     for (Eigen::Index b = 0; b < sums.size(); ++b) {
       double sum = 0;
       for (Eigen::Index i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) sum += term(i);

@@ -77,7 +77,7 @@ TEST(TransformStep, NoTrianglesGiveNothing) {
 
 #ifdef _OPENMP
 TEST(TransformStep, SumsDoNotDependOnTheThreads) {
-  const TransformStep::Rest rest = rest_of(test::sphere(0.5, 4));
+  const TransformStep::Rest rest = rest_of(test::sphere(0.5, 6));  // 82 k triangles: worth threads.
   auto energies = [&](int threads) {
     omp_set_num_threads(threads);
     const auto step = cpu_backend()->transform(rest);
