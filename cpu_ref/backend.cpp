@@ -3,15 +3,19 @@
 #include "cpu_steps.h"
 
 namespace swage {
+
 namespace {
 
 class CpuBackend final : public Backend {
  public:
   std::string name() const override { return "cpu"; }
   std::string device() const override { return "host"; }
+  std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const override { return cpu_rotation(rest); }
+  std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const override { return cpu_similarity(rest); }
   std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const override {
     return cpu_transform(rest);
   }
+  std::unique_ptr<CouplingStep> coupling(const TransformStep::Rest& rest) const override { return cpu_coupling(rest); }
   std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const override {
     return cpu_curvature(rest);
   }

@@ -4,7 +4,6 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstdlib>
 #include <iostream>
 #ifdef _OPENMP
 #include <omp.h>
@@ -21,15 +20,15 @@ constexpr const char* kOpenMp = "ON";
 #else
 constexpr const char* kOpenMp = "OFF";
 #endif
+#ifdef SWAGE_OPENCL
+constexpr const char* kOpenCl = "ON";
+#else
+constexpr const char* kOpenCl = "OFF";
+#endif
 
 std::string version_text() {
-  return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + "\nlicence: MIT";
-}
-
-std::string backend_name(const CommonOptions& common) {
-  if (!common.backend.empty()) return common.backend;
-  const char* from_environment = std::getenv("SWAGE_BACKEND");
-  return from_environment != nullptr && *from_environment != '\0' ? from_environment : "auto";
+  return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
+         "\nlicence: MIT";
 }
 
 }  // namespace
@@ -46,9 +45,16 @@ CLI::Validator between(double low, double high) {
 
 void add_common_options(CLI::App& app, CommonOptions& common) {
   const std::string group = "Common options";
-  app.add_option("--backend", common.backend, "Where the local steps run: auto or cpu (SWAGE_BACKEND, else auto)")
+  app.add_option(
+         "--backend", common.backend,
+         "Where the local steps run: auto, cpu or opencl (SWAGE_BACKEND, else auto: OpenCL where there is a GPU "
+         "and the mesh is large)")
       ->group(group)
       ->type_name("NAME");
+  app.add_option("--device", common.device,
+                 "OpenCL device, by index or part of its name in `swage devices` (SWAGE_DEVICE, else the first)")
+      ->group(group)
+      ->type_name("TEXT");
   app.add_option("--threads", common.threads, "Threads (as many as there are processors)")
       ->group(group)
       ->check(between(1, 1024))
@@ -73,13 +79,6 @@ int threads_in_use() {
 #else
   return 1;
 #endif
-}
-
-std::shared_ptr<Backend> chosen_backend(const CommonOptions& common) {
-  const std::string name = backend_name(common);
-  if (name == "auto" || name == "cpu") return cpu_backend();
-  if (name == "opencl") throw Unavailable("--backend opencl: this build has no OpenCL backend; use auto or cpu");
-  throw WrongUsage("--backend (or SWAGE_BACKEND) is '" + name + "': use auto or cpu");
 }
 
 void write_stdout(const std::string& text) {

@@ -4,10 +4,7 @@
 #include <CLI/App.hpp>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
-
-#include "swage/backend.h"
 
 namespace swage::cli {
 
@@ -15,7 +12,8 @@ namespace swage::cli {
 inline constexpr const char* kStdout = "-";
 
 struct CommonOptions {
-  std::string backend;  ///< Empty where neither the option nor SWAGE_BACKEND says.
+  std::string backend;  ///< Empty where the option is not given.
+  std::string device;   ///< Likewise.
   int threads = 0;      ///< 0 leaves it to OpenMP.
   bool quiet = false;
   bool verbose = false;
@@ -30,6 +28,7 @@ struct Command {
 Command reshape_command(CLI::App& program, const CommonOptions& common);
 Command info_command(CLI::App& program, const CommonOptions& common);
 Command demo_command(CLI::App& program, const CommonOptions& common);
+Command devices_command(CLI::App& program, const CommonOptions& common);
 
 void add_common_options(CLI::App& app, CommonOptions& common);
 
@@ -40,9 +39,6 @@ CLI::Validator between(double low, double high);
 void apply(const CommonOptions& common);
 
 int threads_in_use();
-
-/// Throws WrongUsage where there is no backend of that name, Unavailable where this build leaves it out.
-std::shared_ptr<Backend> chosen_backend(const CommonOptions& common);
 
 /// Throws UnwritableFile.
 void write_stdout(const std::string& text);

@@ -117,6 +117,10 @@ Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& ges
                      {"solve", seconds.solve},
                      {"write", seconds.write},
                      {"total", seconds.total}};
+  const Traffic traffic = backend.traffic();
+  json["traffic"] = {{"uploaded_bytes", traffic.uploaded},
+                     {"downloaded_bytes", traffic.downloaded},
+                     {"build_seconds", traffic.build_seconds}};
   json["peak_memory_mb"] = peak_memory_mb();
   json["warnings"] = warnings;
   return json;

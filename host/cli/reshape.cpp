@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "backend_choice.h"
 #include "failure.h"
 #include "interrupt.h"
 #include "progress_bar.h"
@@ -15,11 +16,12 @@
 namespace swage::cli {
 namespace {
 
-ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, std::shared_ptr<Backend> backend) {
+ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const BackendChoice& choice) {
   ReshapeOptions options;
   options.feature_angle = job.feature_angle * std::numbers::pi / 180;
   options.finalise = !job.no_finalise;
-  options.backend = std::move(backend);
+  options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()));
+  spdlog::debug("local steps: {} on {}", options.backend->name(), options.backend->device());
   if (!job.curvature.empty()) {
     options.unit_box_curvatures = read_unit_box_curvatures(job.curvature, static_cast<int>(mesh.triangles.rows()));
   }
@@ -47,6 +49,19 @@ ReshapeResult solve(const Mesh& mesh, const Gesture& gesture, const ReshapeOptio
   seconds.solve = solve.seconds();
   stop_if_interrupted();
   return result;
+}
+
+/// A device that `auto` chose may turn out too small.
+ReshapeResult solve_or_fall_back(const Mesh& mesh, const Gesture& gesture, ReshapeOptions& options,
+                                 const CommonOptions& common, RunSeconds& seconds, const BackendChoice& choice) {
+  try {
+    return solve(mesh, gesture, options, common, seconds);
+  } catch (const Unavailable& reason) {
+    if (!choice.is_auto() || options.backend->name() == "cpu") throw;
+    spdlog::warn("the cpu does the local steps: {}", reason.what());
+  }
+  options.backend = cpu_backend();
+  return solve(mesh, gesture, options, common, seconds);
 }
 
 void write_result(const std::string& path, const ReshapeJob& job, const MeshFile& file, const Positions& positions) {
@@ -101,27 +116,27 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
 ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const CommonOptions& common) {
   check_outputs(job);
   apply(common);
-  const std::shared_ptr<Backend> backend = chosen_backend(common);
+  const BackendChoice choice(common);
   RunSeconds seconds;
   const Stopwatch total, read;
   const MeshFile file = read_mesh(job.mesh);
   for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
   const Gesture gesture = recipe.on(file);
   check(gesture, file.mesh.positions, file.mesh.triangles);
-  const ReshapeOptions options = solver_options(job, file.mesh, backend);
+  ReshapeOptions options = solver_options(job, file.mesh, choice);
   spdlog::debug("{}: {} vertices, {} triangles, {} handles", job.mesh, file.mesh.positions.rows(),
                 file.mesh.triangles.rows(), gesture.targets.size());
   seconds.read = read.seconds();
   stop_if_interrupted();
 
-  ReshapeResult result = solve(file.mesh, gesture, options, common, seconds);
+  ReshapeResult result = solve_or_fall_back(file.mesh, gesture, options, common, seconds, choice);
   for (const std::string& warning : result.report.warnings) spdlog::warn("{}", warning);
 
   const Stopwatch write;
   write_result(job.output, job, file, result.positions);
   seconds.write = write.seconds();
   seconds.total = total.seconds();
-  write_json(job.json, report_json(job, file, gesture, result, *backend, seconds));
+  write_json(job.json, report_json(job, file, gesture, result, *options.backend, seconds));
   spdlog::info("{}: {} passes ({}), {:.2f} s", job.mesh, result.report.passes, to_string(result.report.stop),
                seconds.total);
   return result;

@@ -63,6 +63,47 @@ class TransformStep {
   virtual Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) = 0;
 };
 
+/// The same matrix as a product, for solves that do not store it: the transform step's left-hand side (the terms of
+/// eq. 35), connect and similarity across edges and each triangle's own 9 × 9 block.
+class CouplingStep {
+ public:
+  virtual ~CouplingStep() = default;
+  /// product = matrix · transforms, both #T × 9.
+  virtual void apply(const Transforms& transforms, Transforms& product) = 0;
+};
+
+/// Elements (vertices, triangles, tetrahedra: whatever they are) with the pairs of vertices whose edges each fits, and
+/// optionally a normal each. The rest side of what rotation and similarity fit.
+struct PairsRest {
+  Positions vertices;        ///< #V × 3.
+  std::vector<int> offsets;  ///< #N + 1: pairs of element n stand at offsets[n] .. offsets[n + 1].
+  Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor> pairs;  ///< #P × 2 vertices: an edge from first to second.
+  Eigen::VectorXd weights;                                       ///< #P, of any sign (cotangents).
+  Positions normals;                                             ///< #N × 3 unit, or no rows: no normal term.
+  Eigen::VectorXd normal_weights;                                ///< #N, or none.
+};
+
+/// Closest rotations of weighted vector pairs (orthogonal Procrustes). For each element the rotation R, det R = 1, that
+/// minimises sum_p w_p |R a_p - b_p|² + w_n |R n - t|², with a the rest edge, b the edge now, n the rest normal and t
+/// the target of the normal. Where several rotations are equally good (flat, straight or empty elements), one of them.
+/// Scale-free. Never a reflection, never NaN for finite input.
+class RotationStep {
+ public:
+  virtual ~RotationStep() = default;
+  /// `targets`: #N × 3, or no rows where the rest has no normals. Gives #N × 9 rotations.
+  virtual void fit(const Positions& positions, const Positions& targets, Transforms& rotations) = 0;
+};
+
+/// Closest similarities (isotropic Procrustes): as RotationStep, for s R with s >= 0 in place of R in the edges' terms,
+/// R alone in the normal's. R is the closest rotation, then s = (sum_p w_p b_p · R a_p) / (sum_p w_p |a_p|²), clamped
+/// to 0 below; 1 where the denominator vanishes.
+class SimilarityStep {
+ public:
+  virtual ~SimilarityStep() = default;
+  /// Gives #N × 9 matrices s R.
+  virtual void fit(const Positions& positions, const Positions& targets, Transforms& similarities) = 0;
+};
+
 /// Principal curvatures, per vertex, of the quadric that fits its neighbours (curvature.h).
 class CurvatureStep {
  public:

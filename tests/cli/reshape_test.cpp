@@ -106,7 +106,7 @@ TEST_F(Reshaping, AReportHasItsKeys) {
                           "energy_by_term", "handle_error_unfinished",
                           "finalised",      "normal_error_deg",
                           "seconds",        "peak_memory_mb",
-                          "warnings"}) {
+                          "traffic",        "warnings"}) {
     EXPECT_TRUE(report.contains(key)) << key;
     EXPECT_FALSE(report.value(key, json()).is_null()) << key;
   }

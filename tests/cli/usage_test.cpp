@@ -100,6 +100,7 @@ TEST_F(Usage, WrongUsageExitsWith2) {
       {{"reshape", "@/box.obj", "--pin", "0", "--solver", "steady", "-o", "@/r.obj"}, "published"},
       {{"reshape", "@/box.obj", "--pin", "0", "--quiet", "-v", "-o", "@/r.obj"}, "-v"},
       {{"reshape", "@/box.obj", "--pin", "0", "--backend", "abacus", "-o", "@/r.obj"}, "abacus"},
+      {{"reshape", "@/box.obj", "--pin", "0", "--backend", "cpu", "--device", "0", "-o", "@/r.obj"}, "--device 0"},
       {{"reshape", "@/box.obj", "--pin", "0,,1", "-o", "@/r.obj"}, "--pin 0,,1"},
       {{"reshape", "@/box.obj", "--pin", "w<3", "-o", "@/r.obj"}, "w<3"},
       {{"reshape", "@/box.obj", "--move", "3", "-o", "@/r.obj"}, "SELECT=dx,dy,dz"},
@@ -158,7 +159,7 @@ TEST_F(Usage, BadInputExitsWith3) {
 }
 
 TEST_F(Usage, WhatCannotBeDoneExitsWith4) {
-  expect(4, {{"reshape", "@/box.obj", "--pin", "0", "--backend", "opencl", "-o", "@/r.obj"}, "OpenCL"});
+  expect(4, {{"reshape", "@/box.obj", "--pin", "0", "--device", "abacus", "-o", "@/r.obj"}, "OpenCL"});
   // A folder in which nobody can make a file.
   expect(4, {{"reshape", "@/box.obj", "--pin", "0", "--quiet", "-o", "/proc/result.obj"}, "/proc/result.obj"});
 }

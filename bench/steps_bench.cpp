@@ -1,0 +1,253 @@
+// The local steps: step × backend × precision × elements. `copy_share` is the memory that a step cannot but read and
+// write, per second, in parts of what a plain copy reaches in the same run. What crosses to the device and back is in
+// the steps' times; upload and download also stand apart. Building kernels is in none: `build_s`.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench_main.h"
+#include "element_pairs.h"
+#include "plan.h"
+#include "procrustes.h"
+#include "shapes.h"
+#include "swage/error.h"
+#ifdef SWAGE_BENCH_OPENCL
+#include "devices.h"
+#include "kernel.h"
+#endif
+
+namespace swage::bench {
+namespace {
+
+using Eigen::Index;
+
+/// What a benchmark repeats.
+struct Work {
+  std::function<void()> run;
+  double bytes_per_element;
+};
+
+struct Choice {
+  std::string name;
+  std::function<std::shared_ptr<Backend>()> backend;
+  double real_size;  // Bytes.
+};
+
+std::vector<Choice> choices() {
+  return {{"cpu/double", [] { return cpu_backend(); }, 8},
+          {"opencl/single", [] { return opencl_backend("", Precision::single); }, 4},
+          {"opencl/double", [] { return opencl_backend("", Precision::twice); }, 8}};
+}
+
+const std::vector<int> kSizes = {10'000, 100'000, 1'000'000};
+
+/// A torus of as many triangles.
+Mesh mesh_of(int triangles) {
+  const int around = triangles == 10'000 ? 100 : triangles == 100'000 ? 250 : 1000;
+  return test::torus(1, 0.4, around, triangles / 2 / around);
+}
+
+/// Bytes per second, read and written, of the best of a few copies by all threads.
+double copy_bandwidth() {
+  static const double bandwidth = [] {
+    const Eigen::VectorXf from = Eigen::VectorXf::Ones(1 << 25);
+    Eigen::VectorXf to = Eigen::VectorXf::Zero(from.size());
+    double best = 0;
+    for (int i = 0; i < 7; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+#pragma omp parallel for schedule(static)
+      for (Index k = 0; k < 64; ++k) to.segment(k << 19, 1 << 19) = from.segment(k << 19, 1 << 19);
+      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+      best = std::max(best, 2 * 4 * static_cast<double>(from.size()) / seconds.count());
+    }
+    return best;
+  }();
+  return bandwidth;
+}
+
+void repeat(benchmark::State& state, const Work& work, int elements) {
+  work.run();  // Kernels are built, pages touched.
+  for (auto _ : state) work.run();
+  state.SetItemsProcessed(state.iterations() * elements);
+  const double bytes = work.bytes_per_element * elements * static_cast<double>(state.iterations());
+  state.counters["bytes_per_element"] = work.bytes_per_element;
+  state.counters["copy_share"] = benchmark::Counter(bytes / copy_bandwidth(), benchmark::Counter::kIsRate);
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [run](benchmark::State& state) {
+                                 try {
+                                   run(state);
+                                 } catch (const Unavailable& reason) {
+                                   state.SkipWithError(reason.what());
+                                 }
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
+using Prepare = std::function<Work(const Backend& backend, int elements, double real_size)>;
+
+void add_step(const std::string& step, const Prepare& prepare) {
+  for (const Choice& choice : choices()) {
+    for (const int elements : kSizes) {
+      add(step + "/" + choice.name + "/" + std::to_string(elements), [=](benchmark::State& state) {
+        const std::shared_ptr<Backend> backend = choice.backend();
+        const Work work = prepare(*backend, elements, choice.real_size);
+        repeat(state, work, elements);
+        state.counters["build_s"] = backend->traffic().build_seconds;
+      });
+    }
+  }
+}
+
+/// An element a triangle: three pairs, the positions of half a vertex, and a matrix.
+Work pairs_work(const Backend& backend, int elements, double real_size, bool similarity) {
+  const Mesh mesh = mesh_of(elements);
+  const PairsRest rest = test::triangle_pairs(mesh);
+  const Positions moved = (2 * mesh.positions).array().sin();
+  const auto result = std::make_shared<Transforms>();
+  const double bytes = 4 + 3 * (2 * 4 + 3 * real_size) + 1.5 * real_size + 9 * real_size;
+  if (similarity) {
+    const std::shared_ptr<SimilarityStep> step = backend.similarity(rest);
+    return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes + real_size};
+  }
+  const std::shared_ptr<RotationStep> step = backend.rotation(rest);
+  return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes};
+}
+
+void add_rotation() {
+  add_step("rotation", [](const Backend& backend, int elements, double real_size) {
+    return pairs_work(backend, elements, real_size, false);
+  });
+}
+
+void add_similarity() {
+  add_step("similarity", [](const Backend& backend, int elements, double real_size) {
+    return pairs_work(backend, elements, real_size, true);
+  });
+}
+
+TransformStep::Rest reshape_rest(int triangles) {
+  const Mesh mesh = mesh_of(triangles);
+  return rest_shape({}, mesh, edges_of(mesh.triangles), Curvatures::Zero(mesh.triangles.rows(), 2));
+}
+
+/// A pass of reshaping. An element a triangle: its transform, inverse, right-hand side, half a vertex, and one and a
+/// half edges and pairs with their rest and the edges' quadratics.
+void add_transform() {
+  add_step("transform", [](const Backend& backend, int elements, double real_size) {
+    const TransformStep::Rest rest = reshape_rest(elements);
+    const std::shared_ptr<TransformStep> step = backend.transform(rest);
+    const Transforms transforms = 1.1 * identities(elements);
+    const Positions moved = (2 * rest.vertices).array().sin();
+    const auto quadratics = std::make_shared<TransformStep::EdgeQuadratics>();
+    const auto sides = std::make_shared<Transforms>();
+    return Work{[=] {
+                  step->fit_edges(transforms, *quadratics);
+                  step->fit_transforms(moved, *sides);
+                },
+                91.5 * real_size + 12 * 4};
+  });
+}
+
+/// An element a triangle: two matrices, its own block and what it shares with three neighbours.
+void add_coupling() {
+  add_step("coupling", [](const Backend& backend, int elements, double real_size) {
+    const std::shared_ptr<CouplingStep> step = backend.coupling(reshape_rest(elements));
+    const Transforms transforms = 1.1 * identities(elements);
+    const auto product = std::make_shared<Transforms>();
+    return Work{[=] { step->apply(transforms, *product); }, (2 * 9 + 33) * real_size + 3 * 4};
+  });
+}
+
+/// The closest rotations alone, of matrices that lie where they are needed.
+void add_closest_rotation_by_cpu() {
+  for (const int elements : kSizes) {
+    add("closest_rotation/cpu/double/" + std::to_string(elements), [=](benchmark::State& state) {
+      const Transforms matrices = Transforms::Random(elements, 9);
+      Transforms rotations(elements, 9);
+      const Work work{[&] {
+#pragma omp parallel for schedule(static)
+                        for (Index i = 0; i < elements; ++i) {
+                          store(closest_rotation(test::matrix(matrices, i)), rotations, i);
+                        }
+                      },
+                      2 * 9 * 8};
+      repeat(state, work, elements);
+    });
+  }
+}
+
+#ifdef SWAGE_BENCH_OPENCL
+Queue queue_on(Precision precision) {
+  const FoundDevice& device = choose_device("", precision);
+  return Queue(std::make_shared<Context>(device.handle, precision, ProgramCache()));
+}
+
+using DeviceRun = std::function<void(benchmark::State& state, const Queue& queue, int elements, double real_size)>;
+
+void add_device(const std::string& name, const DeviceRun& run) {
+  for (const auto& [label, precision, real_size] :
+       {std::tuple{"single", Precision::single, 4.0}, std::tuple{"double", Precision::twice, 8.0}}) {
+    for (const int elements : kSizes) {
+      add(name + "/opencl/" + label + "/" + std::to_string(elements),
+          [=, precision = precision, real_size = real_size](benchmark::State& state) {
+            run(state, queue_on(precision), elements, real_size);
+          });
+    }
+  }
+}
+
+void add_closest_rotation_by_device() {
+  add_device("closest_rotation", [](benchmark::State& state, Queue queue, int elements, double real_size) {
+    const Reals matrices(queue, Transforms::Random(elements, 9)), turns(queue, Index{4} * elements),
+        rotations(queue, Index{9} * elements);
+    Kernel turn(queue, "rotation", "turn_near"), finish(queue, "rotation", "fit_rotations");
+    const Work work{[&] {
+                      turn.launch(elements, matrices, turns);
+                      finish.launch(elements, matrices, turns, rotations);
+                      queue.handle.finish();
+                    },
+                    (2 * (9 + 4) + 9) * real_size};
+    repeat(state, work, elements);
+  });
+}
+
+/// What a step with a position and a matrix an element sends over.
+void add_crossings() {
+  add_device("upload", [](benchmark::State& state, const Queue& queue, int elements, double real_size) {
+    const Positions positions = Positions::Random(elements, 3);
+    Reals array(queue, positions.size());
+    repeat(state, {[&] { array.upload(positions, Layout::rows); }, 3 * (8 + real_size)}, elements);
+  });
+  add_device("download", [](benchmark::State& state, const Queue& queue, int elements, double real_size) {
+    Transforms matrices = Transforms::Random(elements, 9);
+    const Reals array(queue, matrices);
+    repeat(state, {[&] { array.download(matrices); }, 9 * (8 + real_size)}, elements);
+  });
+}
+#endif
+
+}  // namespace
+
+void register_all() {
+  benchmark::AddCustomContext("copy_bytes_per_second", std::to_string(copy_bandwidth()));
+  add_rotation();
+  add_similarity();
+  add_transform();
+  add_coupling();
+  add_closest_rotation_by_cpu();
+#ifdef SWAGE_BENCH_OPENCL
+  add_closest_rotation_by_device();
+  add_crossings();
+#endif
+}
+
+}  // namespace swage::bench

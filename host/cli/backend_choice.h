@@ -1,0 +1,36 @@
+// Which backend does the local steps: --backend, --device, SWAGE_BACKEND and SWAGE_DEVICE.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "options.h"
+#include "swage/backend.h"
+
+namespace swage::cli {
+
+/// `auto` leaves smaller meshes to the cpu: they are done before a device has built its kernels.
+inline constexpr int kTrianglesForDevice = 100000;
+
+class BackendChoice {
+ public:
+  /// Throws WrongUsage where there is no backend of that name, Unavailable where opencl is asked for and not to be had.
+  explicit BackendChoice(const CommonOptions& common);
+
+  /// What `auto` comes to. Falls back to the cpu with a warning.
+  std::shared_ptr<Backend> for_triangles(int count) const;
+
+  bool is_auto() const { return name_ == "auto"; }
+
+ private:
+  std::shared_ptr<Backend> on_device() const;
+
+  std::string name_, device_;
+  std::shared_ptr<Backend> asked_for_;  ///< Null where auto.
+};
+
+/// The device that `auto` takes for large meshes: the one SWAGE_DEVICE names, else the first usable GPU or accelerator.
+std::optional<Device> device_of_auto();
+
+}  // namespace swage::cli

@@ -1,0 +1,48 @@
+#include "devices.h"
+#include "opencl_steps.h"
+
+namespace swage {
+
+namespace {
+
+class OpenClBackend final : public Backend {
+ public:
+  OpenClBackend(const FoundDevice& device, Precision precision)
+      : facts_(device.facts),
+        context_(std::make_shared<Context>(device.handle, precision,
+                                           keeps_programs(device.facts) ? ProgramCache() : ProgramCache::of_user())) {}
+
+  std::string name() const override { return "opencl"; }
+  std::string device() const override { return facts_.name; }
+  Traffic traffic() const override { return context_->traffic(); }
+
+  std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const override {
+    return opencl_rotation(context_, rest);
+  }
+  std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const override {
+    return opencl_similarity(context_, rest);
+  }
+  std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const override {
+    return opencl_transform(context_, rest);
+  }
+  std::unique_ptr<CouplingStep> coupling(const TransformStep::Rest& rest) const override {
+    return opencl_coupling(context_, rest);
+  }
+  /// Has no kernel yet: once per mesh, it is not what takes the time.
+  std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const override {
+    return reference_->curvature(rest);
+  }
+
+ private:
+  Device facts_;
+  SharedContext context_;
+  std::shared_ptr<Backend> reference_ = cpu_backend();
+};
+
+}  // namespace
+
+std::shared_ptr<Backend> opencl_backend(const std::string& device, Precision precision) {
+  return std::make_shared<OpenClBackend>(choose_device(device, precision), precision);
+}
+
+}  // namespace swage

@@ -1,0 +1,111 @@
+#include "context.h"
+
+#include <chrono>
+
+#include "kernel_source.h"
+#include "swage/error.h"
+#include "words.h"
+
+namespace swage {
+namespace {
+
+/// PoCL's first contexts fail when several threads make them at once.
+cl::Context make_context(const cl::Device& device) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  return ask("OpenCL context", [&] { return cl::Context(device); });
+}
+
+std::string options_for(const cl::Device& device) {
+  std::string options = "-cl-std=CL1.2";
+  const auto abilities = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
+  if (abilities & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  // Oclgrind runs no inlined function that gives a struct (it stops at llvm.experimental.noalias.scope.decl).
+  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+  if (platform.getInfo<CL_PLATFORM_NAME>() == "Oclgrind") options += " -cl-opt-disable";
+  return options;
+}
+
+std::string key_of(const cl::Device& device, const std::string& options, const std::string& source) {
+  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+  return device.getInfo<CL_DEVICE_NAME>() + '\n' + device.getInfo<CL_DEVICE_VERSION>() + '\n' +
+         device.getInfo<CL_DRIVER_VERSION>() + '\n' + platform.getInfo<CL_PLATFORM_VERSION>() + '\n' + options + '\n' +
+         source;
+}
+
+void compile_or_explain(cl::Program& program, const cl::Device& device, const std::string& name,
+                        const std::string& options) {
+  try {
+    program.build(device, options.c_str());
+  } catch (const cl::BuildError& error) {
+    std::string logs;
+    for (const auto& [of_device, log] : error.getBuildLog()) logs += log;
+    throw Unavailable("kernels/" + name + ": the device's compiler refuses it\n" + logs);
+  }
+}
+
+}  // namespace
+
+Context::Context(const cl::Device& device, Precision precision, ProgramCache cache)
+    : device_(device),
+      precision_(precision),
+      handle_(make_context(device)),
+      cache_(std::move(cache)),
+      options_(options_for(device)) {}
+
+cl::Program Context::program(const std::string& stem) { return build(stem + ".cl", program_source(stem, precision_)); }
+
+cl::Program Context::program(const std::string& name, const std::string& text) {
+  return build(name, program_source(name, text, precision_));
+}
+
+cl::Program Context::build(const std::string& name, const std::string& source) {
+  std::promise<cl::Program> mine;
+  std::shared_future<cl::Program> program;
+  {
+    const std::lock_guard lock(mutex_);
+    std::shared_future<cl::Program>& known = programs_[source];
+    if (known.valid()) {
+      program = known;
+    } else {
+      known = mine.get_future().share();
+    }
+  }
+  if (program.valid()) return program.get();
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    mine.set_value(compile(name, source));
+  } catch (...) {
+    mine.set_exception(std::current_exception());
+  }
+  build_nanoseconds_ += (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+  const std::lock_guard lock(mutex_);
+  return programs_[source].get();
+}
+
+cl::Program Context::compile(const std::string& name, const std::string& source) const {
+  return ask("kernels/" + name, [&] {
+    const std::string key = key_of(device_, options_, source);
+    if (const auto kept = cache_.find(key)) {
+      try {
+        cl::Program program(handle_, {device_}, {*kept});
+        program.build(device_, options_.c_str());
+        return program;
+      } catch (const cl::Error&) {
+        // Kept by a driver that calls itself the same and is not: built again.
+      }
+    }
+    cl::Program program(handle_, source);
+    compile_or_explain(program, device_, name, options_);
+    if (cache_.keeps()) cache_.keep(key, program.getInfo<CL_PROGRAM_BINARIES>().front());
+    return program;
+  });
+}
+
+Traffic Context::traffic() const { return {uploaded_, downloaded_, static_cast<double>(build_nanoseconds_) * 1e-9}; }
+
+Queue::Queue(std::shared_ptr<Context> of)
+    : context(std::move(of)),
+      handle(ask("OpenCL queue", [&] { return cl::CommandQueue(context->handle(), context->device()); })) {}
+
+}  // namespace swage

@@ -1,0 +1,69 @@
+// A device at work: its programs (here), arrays (buffer.h) and kernels (kernel.h).
+//
+// How a step (opencl_steps.h) uses it:
+//   Queue queue_;                                      // one a step, made from the shared context
+//   Reals rest_{queue_, rest.vertices};                // static data goes up once
+//   Reals result_{queue_, count * 9};
+//   Kernel fit_{queue_, "rotation", "fit_rotations"};  // kernels/rotation.cl; (const int count, ...) its arguments
+//   positions_.upload(positions);
+//   fit_.launch(count, rest_, positions_, 0.5, result_);
+//   result_.download(rotations);
+#pragma once
+
+#include <atomic>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "cl.h"
+#include "program_cache.h"
+#include "swage/backend.h"
+
+namespace swage {
+
+/// Threads may share it.
+class Context {
+ public:
+  /// Throws Unavailable.
+  Context(const cl::Device& device, Precision precision, ProgramCache cache);
+
+  Precision precision() const { return precision_; }
+  const cl::Device& device() const { return device_; }
+  const cl::Context& handle() const { return handle_; }
+
+  /// kernels/<stem>.cl with what it includes, built the first time it is asked for. Throws Unavailable with the log.
+  cl::Program program(const std::string& stem);
+
+  /// The same of a text that stands in no file: `name` stands for it in messages.
+  cl::Program program(const std::string& name, const std::string& text);
+
+  void count_upload(std::size_t bytes) { uploaded_ += bytes; }
+  void count_download(std::size_t bytes) { downloaded_ += bytes; }
+  Traffic traffic() const;
+
+ private:
+  cl::Program build(const std::string& name, const std::string& source);
+  cl::Program compile(const std::string& name, const std::string& source) const;
+
+  cl::Device device_;
+  Precision precision_;
+  cl::Context handle_;
+  ProgramCache cache_;
+  std::string options_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_future<cl::Program>> programs_;
+  std::atomic<std::size_t> uploaded_{0}, downloaded_{0};
+  std::atomic<long long> build_nanoseconds_{0};
+};
+
+/// Work on a context, one thing after the other. A step has its own; its buffers and kernels share it.
+struct Queue {
+  explicit Queue(std::shared_ptr<Context> context);
+
+  std::shared_ptr<Context> context;
+  cl::CommandQueue handle;
+};
+
+}  // namespace swage

@@ -1,0 +1,54 @@
+#include "kernel_source.h"
+
+#include <set>
+#include <sstream>
+
+namespace swage {
+namespace {
+
+constexpr std::string_view kInclude = "#include \"";
+
+class Assembler {
+ public:
+  void add(const std::string& path, std::string_view text) {
+    source_ << "#line 1 \"kernels/" << path << "\"\n";
+    std::istringstream lines{std::string(text)};
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+      if (!line.starts_with(kInclude)) {
+        source_ << line << '\n';
+        continue;
+      }
+      add_once(line.substr(kInclude.size(), line.rfind('"') - kInclude.size()));
+      source_ << "#line " << number + 1 << " \"kernels/" << path << "\"\n";
+    }
+  }
+
+  std::ostringstream& source() { return source_; }
+
+ private:
+  void add_once(const std::string& path) {
+    if (included_.insert(path).second) add(path, kernel_file(path));
+  }
+
+  std::set<std::string> included_;
+  std::ostringstream source_;
+};
+
+}  // namespace
+
+std::string program_source(const std::string& stem, Precision precision) {
+  return program_source(stem + ".cl", kernel_file(stem + ".cl"), precision);
+}
+
+std::string program_source(const std::string& name, std::string_view text, Precision precision) {
+  Assembler assembler;
+  assembler.source() << (precision == Precision::single
+                             ? "typedef float real;\n"
+                             : "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\ntypedef double real;\n")
+                     << "#pragma OPENCL FP_CONTRACT OFF\n";
+  assembler.add(name, text);
+  return assembler.source().str();
+}
+
+}  // namespace swage

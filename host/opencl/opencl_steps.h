@@ -1,0 +1,18 @@
+// The steps that run on a device, a file each.
+#pragma once
+
+#include <memory>
+
+#include "context.h"
+#include "swage/steps.h"
+
+namespace swage {
+
+using SharedContext = std::shared_ptr<Context>;
+
+std::unique_ptr<RotationStep> opencl_rotation(const SharedContext& context, const PairsRest& rest);
+std::unique_ptr<SimilarityStep> opencl_similarity(const SharedContext& context, const PairsRest& rest);
+std::unique_ptr<TransformStep> opencl_transform(const SharedContext& context, const TransformStep::Rest& rest);
+std::unique_ptr<CouplingStep> opencl_coupling(const SharedContext& context, const TransformStep::Rest& rest);
+
+}  // namespace swage

@@ -1,0 +1,48 @@
+// What rotation and similarity share: the covariances of each element's pairs and normals.
+#pragma once
+
+#include <string>
+
+#include "kernel.h"
+#include "swage/steps.h"
+
+namespace swage {
+
+/// How the device sees a shape: about its first vertex, the rest shape's size as unit, the largest weight 1. So single
+/// precision bears any size and any place.
+struct PairScales {
+  explicit PairScales(const PairsRest& rest);
+  double per_length, per_weight;
+};
+
+/// The elements of `rest`.
+Eigen::Index elements_of(const PairsRest& rest);
+
+class PairSums {
+ public:
+  /// With the kernels of kernels/<stem>.cl.
+  PairSums(const Queue& queue, const std::string& stem, const PairsRest& rest);
+
+  Eigen::Index count() const { return count_; }
+  /// #N × 9, in columns: sum_p w_p b_p a_pᵀ, and the same with the normals.
+  const Reals& edges() const { return edge_sums_; }
+  const Reals& all() const { return normals_ ? all_sums_ : edge_sums_; }
+
+  /// #N × 4, in columns: what the last step of the closest rotations begins with.
+  const Reals& turns() const { return turns_; }
+
+  void gather(const Positions& positions, const Positions& targets);
+
+ private:
+  PairSums(const Queue& queue, const std::string& stem, const PairsRest& rest, const PairScales& scales);
+
+  PairScales scales_;
+  Eigen::Index count_;
+  bool normals_;
+  Ints offsets_, pairs_;
+  Reals edges_, weighted_normals_;
+  Reals positions_, targets_, edge_sums_, all_sums_, turns_;
+  Kernel gather_pairs_, add_normals_, turn_near_;
+};
+
+}  // namespace swage
