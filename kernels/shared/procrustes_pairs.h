@@ -1,8 +1,8 @@
 // What rotation and similarity share on the device, in OpenCL C alone. Matrices lie in columns, positions in rows.
 
 /// One item an element: sum_p b_p (w_p a_p)ᵀ. `edges`: w_p a_p. A kernel of its own, for its loop.
-kernel void gather_pairs(const int count, global const int* offsets, global const int* pairs,
-                         global const real* edges, global const real* positions, global real* sums) {
+kernel void gather_pairs(const int count, global const int* offsets, global const int* pairs, global const real* edges,
+                         global const real* positions, global real* sums) {
   const int i = get_global_id(0);
   if (i >= count) return;
   Mat3 sum = mat3(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0));
@@ -34,6 +34,5 @@ kernel void turn_near(const int count, global const real* sums, global real* tur
 }
 
 static inline Mat3 load_rotation(global const real* sums, global const real* turns, int n, int i) {
-  return finish_rotation(column9(sums, n, i),
-                         quaternion(turns[i], turns[n + i], turns[2 * n + i], turns[3 * n + i]));
+  return finish_rotation(column9(sums, n, i), quaternion(turns[i], turns[n + i], turns[2 * n + i], turns[3 * n + i]));
 }
