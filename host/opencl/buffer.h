@@ -68,6 +68,7 @@ void see(void* data, Eigen::Index rows, Eigen::Index columns, Layout layout, con
   using Eigen::Dynamic;
   constexpr int kRowOrder = kColumns == 1 ? Eigen::ColMajor : Eigen::RowMajor;
   auto* scalars = static_cast<Scalar*>(data);
+  // NOLINTNEXTLINE(bugprone-branch-clone): the branches differ in their type.
   if (layout == Layout::columns) {
     use(Eigen::Map<Eigen::Matrix<Scalar, Dynamic, kColumns>>(scalars, rows, columns));
   } else {
