@@ -1,6 +1,7 @@
 // The local steps: step × backend × precision × elements. `copy_share` is the memory that a step cannot but read and
 // write, per second, in parts of what a plain copy reaches in the same run. What crosses to the device and back is in
-// the steps' times; upload and download also stand apart. Building kernels is in none: `build_s`.
+// the steps' times, `up_per_element` and `down_per_element` are its bytes; upload and download also stand apart.
+// Building kernels is in none: `build_s`.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -8,10 +9,12 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench_main.h"
 #include "element_pairs.h"
+#include "flops.h"
 #include "plan.h"
 #include "procrustes.h"
 #include "shapes.h"
@@ -100,8 +103,13 @@ void add_step(const std::string& step, const Prepare& prepare) {
       add(step + "/" + choice.name + "/" + std::to_string(elements), [=](benchmark::State& state) {
         const std::shared_ptr<Backend> backend = choice.backend();
         const Work work = prepare(*backend, elements, choice.real_size);
+        const Traffic before = backend->traffic();
         repeat(state, work, elements);
-        state.counters["build_s"] = backend->traffic().build_seconds;
+        const Traffic after = backend->traffic();
+        const double results = elements * static_cast<double>(state.iterations() + 1);
+        state.counters["up_per_element"] = static_cast<double>(after.uploaded - before.uploaded) / results;
+        state.counters["down_per_element"] = static_cast<double>(after.downloaded - before.downloaded) / results;
+        state.counters["build_s"] = after.build_seconds;
       });
     }
   }
@@ -167,6 +175,45 @@ void add_coupling() {
   });
 }
 
+/// A torus of as many vertices, each with those within three edges.
+CurvatureStep::Rest curvature_rest(int vertices) {
+  const Mesh mesh = test::torus(1, 0.4, vertices / 100, 100);
+  const Lists near = one_rings(edges_of(mesh.triangles), vertices);
+  CurvatureStep::Rest rest{mesh.positions, mesh.positions, {0}, {}};
+  for (auto normal : rest.normals.rowwise()) {
+    const Eigen::RowVector3d flat(normal.x(), normal.y(), 0);
+    normal = (normal - flat.normalized()).normalized().eval();
+  }
+  std::vector<int> seen_from(static_cast<size_t>(vertices), -1);
+  for (int v = 0; v < vertices; ++v) {
+    const size_t first = rest.neighbours.size();
+    seen_from[static_cast<size_t>(v)] = v;
+    auto add_around = [&](int of) {
+      for (const int neighbour : near[of]) {
+        if (std::exchange(seen_from[static_cast<size_t>(neighbour)], v) != v) rest.neighbours.push_back(neighbour);
+      }
+    };
+    add_around(v);
+    for (int ring = 1; ring < 3; ++ring) {
+      const size_t known = rest.neighbours.size();
+      for (size_t k = first; k < known; ++k) add_around(rest.neighbours[k]);
+    }
+    rest.offsets.push_back(static_cast<int>(rest.neighbours.size()));
+  }
+  return rest;
+}
+
+/// An element a vertex: its neighbours, a position and a normal, and two curvatures.
+void add_curvature() {
+  add_step("curvature", [](const Backend& backend, int elements, double real_size) {
+    const CurvatureStep::Rest rest = curvature_rest(elements);
+    const std::shared_ptr<CurvatureStep> step = backend.curvature(rest);
+    const auto result = std::make_shared<Curvatures>();
+    const double neighbours = static_cast<double>(rest.neighbours.size()) / elements;
+    return Work{[=] { step->fit(*result); }, 2 * 4 + neighbours * 4 + (3 + 3 + 2) * real_size};
+  });
+}
+
 /// The closest rotations alone, of matrices that lie where they are needed.
 void add_closest_rotation_by_cpu() {
   for (const int elements : kSizes) {
@@ -207,16 +254,21 @@ void add_device(const std::string& name, const DeviceRun& run) {
 
 void add_closest_rotation_by_device() {
   add_device("closest_rotation", [](benchmark::State& state, Queue queue, int elements, double real_size) {
-    const Reals matrices(queue, Transforms::Random(elements, 9)), turns(queue, Index{4} * elements),
-        rotations(queue, Index{9} * elements);
-    Kernel turn(queue, "rotation", "turn_near"), finish(queue, "rotation", "fit_rotations");
+    const Reals matrices(queue, Transforms::Random(elements, 9)), rotations(queue, Index{9} * elements);
+    Kernel fit(queue, "rotation", "fit_rotations");
+    const int lanes = queue.context->lanes();  // Divides all sizes.
     const Work work{[&] {
-                      turn.launch(elements, matrices, turns);
-                      finish.launch(elements, matrices, turns, rotations);
+                      fit.launch(elements / lanes, elements, matrices, rotations);
                       queue.handle.finish();
                     },
-                    (2 * (9 + 4) + 9) * real_size};
+                    2 * 9 * real_size};
     repeat(state, work, elements);
+    const Flops flops = flops_of_closest_rotation();
+    state.counters["flops_per_element"] = flops.all();
+    state.counters["roots_and_quotients"] = flops.roots + flops.quotients;
+    state.counters["flops"] =
+        benchmark::Counter(static_cast<double>(flops.all()) * elements * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate);
   });
 }
 
@@ -243,6 +295,7 @@ void register_all() {
   add_similarity();
   add_transform();
   add_coupling();
+  add_curvature();
   add_closest_rotation_by_cpu();
 #ifdef SWAGE_BENCH_OPENCL
   add_closest_rotation_by_device();

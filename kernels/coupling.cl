@@ -1,4 +1,5 @@
 // The transform step's matrix times transforms (reshape paper, eq. 35). All lies in columns but the few shares.
+#include "shared/scalar.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"

@@ -1,15 +1,14 @@
-// The rotation step: gather_pairs, add_normals where there are any, turn_near, fit_rotations.
+// The rotation step, after pairs.cl.
+#include "shared/lanes.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
-#include "shared/memory.h"
+#include "shared/lane_memory.h"
 #include "shared/procrustes.h"
-#include "shared/procrustes_pairs.h"
 
-/// One item an element.
-kernel void fit_rotations(const int count, global const real* sums, global const real* turns,
-                          global real* rotations) {
+/// One item LANES elements.
+kernel void fit_rotations(const int count, const int stride, global const scalar* sums, global scalar* rotations) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  store_column9(load_rotation(sums, turns, count, i), rotations, count, i);
+  store_lanes9(closest_rotation(load_lanes9(sums, stride, i)), rotations, stride, i);
 }

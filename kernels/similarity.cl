@@ -1,17 +1,17 @@
-// The similarity step: gather_pairs, add_normals where there are any, turn_near, fit_similarities.
+// The similarity step, after pairs.cl.
+#include "shared/lanes.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
-#include "shared/memory.h"
+#include "shared/lane_memory.h"
 #include "shared/procrustes.h"
-#include "shared/procrustes_pairs.h"
 
-/// One item an element. `sums` have the normals in them, `edges` do not; without normals they are the same.
-kernel void fit_similarities(const int count, global const real* sums, global const real* turns,
-                             global const real* edges, global const real* inverse_spreads, global real* similarities) {
+/// One item LANES elements. `sums` have the normals in them, `edges` do not; without normals they are the same.
+kernel void fit_similarities(const int count, const int stride, global const scalar* sums, global const scalar* edges,
+                             global const scalar* inverse_spreads, global scalar* similarities) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const Mat3 rotation = load_rotation(sums, turns, count, i);
-  const real scale = closest_scale(rotation, column9(edges, count, i), inverse_spreads[i]);
-  store_column9(scale_mat3(scale, rotation), similarities, count, i);
+  const Mat3 rotation = closest_rotation(load_lanes9(sums, stride, i));
+  const real scale = closest_scale(rotation, load_lanes9(edges, stride, i), load_lanes(inverse_spreads, i));
+  store_lanes9(scale_mat3(scale, rotation), similarities, stride, i);
 }

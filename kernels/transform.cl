@@ -1,4 +1,5 @@
 // The transform step. All lies in columns but positions, which are gathered alone.
+#include "shared/scalar.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"

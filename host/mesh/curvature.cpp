@@ -10,7 +10,6 @@
 #include "adjacency.h"
 #include "measures.h"
 #include "pieces.h"
-#include "swage/backend.h"
 #include "swage/error.h"
 
 namespace swage {
@@ -123,14 +122,15 @@ Curvatures means_over_triangles(const Pieces& pieces, const Curvatures& at_verti
 
 }  // namespace
 
-Curvatures curvature(const PositionsRef& positions, const TrianglesRef& triangles, const CurvatureOptions& options) {
+Curvatures curvature(const PositionsRef& positions, const TrianglesRef& triangles, const CurvatureOptions& options,
+                     const Backend& backend) {
   check(positions, triangles);
   check_options(options);
   if (box_diagonal(positions) == 0) return Curvatures::Zero(triangles.rows(), 2);
   const UnitBox box = unit_box(positions);
   const Pieces pieces = cut_at_creases(box.into(positions), triangles, options.crease_angle);
   Curvatures at_vertices;
-  cpu_backend()->curvature(neighbourhoods(pieces.mesh, options.rings))->fit(at_vertices);
+  backend.curvature(neighbourhoods(pieces.mesh, options.rings))->fit(at_vertices);
   return means_over_triangles(pieces, at_vertices) / box.extent;
 }
 

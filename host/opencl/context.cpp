@@ -16,6 +16,9 @@ cl::Context make_context(const cl::Device& device) {
   return ask("OpenCL context", [&] { return cl::Context(device); });
 }
 
+/// Devices that compute in vectors are given them whole; two of eight doubles keep one busier than one does.
+int lanes_for(const cl::Device& device) { return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() > 1 ? 16 : 1; }
+
 std::string options_for(const cl::Device& device) {
   std::string options = "-cl-std=CL1.2";
   const auto abilities = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
@@ -49,14 +52,17 @@ void compile_or_explain(cl::Program& program, const cl::Device& device, const st
 Context::Context(const cl::Device& device, Precision precision, ProgramCache cache)
     : device_(device),
       precision_(precision),
+      lanes_(lanes_for(device)),
       handle_(make_context(device)),
       cache_(std::move(cache)),
       options_(options_for(device)) {}
 
-cl::Program Context::program(const std::string& stem) { return build(stem + ".cl", program_source(stem, precision_)); }
+cl::Program Context::program(const std::string& stem) {
+  return build(stem + ".cl", program_source(stem, {precision_, lanes_}));
+}
 
 cl::Program Context::program(const std::string& name, const std::string& text) {
-  return build(name, program_source(name, text, precision_));
+  return build(name, program_source(name, text, {precision_, lanes_}));
 }
 
 cl::Program Context::build(const std::string& name, const std::string& source) {

@@ -30,6 +30,8 @@ class Context {
   Context(const cl::Device& device, Precision precision, ProgramCache cache);
 
   Precision precision() const { return precision_; }
+  /// How many elements an item of a kernel in lanes has.
+  int lanes() const { return lanes_; }
   const cl::Device& device() const { return device_; }
   const cl::Context& handle() const { return handle_; }
 
@@ -49,6 +51,7 @@ class Context {
 
   cl::Device device_;
   Precision precision_;
+  int lanes_;
   cl::Context handle_;
   ProgramCache cache_;
   std::string options_;

@@ -110,8 +110,9 @@ bool fits(const Device& device, const std::string& wanted) {
 }  // namespace
 
 const std::vector<FoundDevice>& found_devices() {
-  static const std::vector<FoundDevice> kFound = look();
-  return kFound;
+  // Never destroyed: at the end of the process a runtime may be gone before its handles.
+  static const auto* const kFound = new std::vector<FoundDevice>(look());  // NOLINT(cppcoreguidelines-owning-memory)
+  return *kFound;
 }
 
 const FoundDevice& choose_device(const std::string& wanted, Precision precision) {

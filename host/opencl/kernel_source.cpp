@@ -35,18 +35,26 @@ class Assembler {
   std::ostringstream source_;
 };
 
-}  // namespace
-
-std::string program_source(const std::string& stem, Precision precision) {
-  return program_source(stem + ".cl", kernel_file(stem + ".cl"), precision);
+std::string types(const Arithmetic& arithmetic) {
+  const bool single = arithmetic.precision == Precision::single;
+  const std::string scalar = single ? "float" : "double", width = std::to_string(arithmetic.lanes);
+  const std::string of_lanes = arithmetic.lanes == 1 ? "" : width;
+  // Comparing vectors gives integers of the scalar's size.
+  const std::string mask = arithmetic.lanes == 1 || single ? "int" : "long";
+  return (single ? "" : "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n") + ("typedef " + scalar + " scalar;\n") +
+         "typedef " + scalar + of_lanes + " lanes;\n" + "typedef " + mask + of_lanes + " lane_mask;\n" +
+         "#define LANES " + width + '\n';
 }
 
-std::string program_source(const std::string& name, std::string_view text, Precision precision) {
+}  // namespace
+
+std::string program_source(const std::string& stem, const Arithmetic& arithmetic) {
+  return program_source(stem + ".cl", kernel_file(stem + ".cl"), arithmetic);
+}
+
+std::string program_source(const std::string& name, std::string_view text, const Arithmetic& arithmetic) {
   Assembler assembler;
-  assembler.source() << (precision == Precision::single
-                             ? "typedef float real;\n"
-                             : "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\ntypedef double real;\n")
-                     << "#pragma OPENCL FP_CONTRACT OFF\n";
+  assembler.source() << types(arithmetic) << "#pragma OPENCL FP_CONTRACT OFF\n";
   assembler.add(name, text);
   return assembler.source().str();
 }

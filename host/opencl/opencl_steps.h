@@ -14,5 +14,6 @@ std::unique_ptr<RotationStep> opencl_rotation(const SharedContext& context, cons
 std::unique_ptr<SimilarityStep> opencl_similarity(const SharedContext& context, const PairsRest& rest);
 std::unique_ptr<TransformStep> opencl_transform(const SharedContext& context, const TransformStep::Rest& rest);
 std::unique_ptr<CouplingStep> opencl_coupling(const SharedContext& context, const TransformStep::Rest& rest);
+std::unique_ptr<CurvatureStep> opencl_curvature(const SharedContext& context, const CurvatureStep::Rest& rest);
 
 }  // namespace swage

@@ -36,6 +36,8 @@ Positions weighted_normals(const PairsRest& rest, const PairScales& scales) {
   return scale * rest.normal_weights.head(rest.normals.rows()).asDiagonal() * rest.normals;
 }
 
+int whole_items(Index count, int lanes) { return static_cast<int>((count + lanes - 1) / lanes * lanes); }
+
 }  // namespace
 
 PairScales::PairScales(const PairsRest& rest) : per_length(inverse_or_one(extent(rest.vertices))) {
@@ -47,12 +49,13 @@ Index elements_of(const PairsRest& rest) {
   return rest.offsets.empty() ? 0 : static_cast<Index>(rest.offsets.size()) - 1;
 }
 
-PairSums::PairSums(const Queue& queue, const std::string& stem, const PairsRest& rest)
-    : PairSums(queue, stem, rest, PairScales(rest)) {}
+PairSums::PairSums(const Queue& queue, const PairsRest& rest) : PairSums(queue, rest, PairScales(rest)) {}
 
-PairSums::PairSums(const Queue& queue, const std::string& stem, const PairsRest& rest, const PairScales& scales)
+PairSums::PairSums(const Queue& queue, const PairsRest& rest, const PairScales& scales)
     : scales_(scales),
       count_(elements_of(rest)),
+      lanes_(queue.context->lanes()),
+      stride_(whole_items(count_, lanes_)),
       normals_(rest.normals.rows() != 0),
       offsets_(queue, offsets_of(rest)),
       pairs_(queue, rest.pairs, Layout::rows),
@@ -60,24 +63,21 @@ PairSums::PairSums(const Queue& queue, const std::string& stem, const PairsRest&
       weighted_normals_(queue, weighted_normals(rest, scales)),
       positions_(queue, rest.vertices.size()),
       targets_(queue, rest.normals.size()),
-      edge_sums_(queue, count_ * 9),
-      all_sums_(queue, normals_ ? count_ * 9 : 0),
-      turns_(queue, count_ * 4),
-      gather_pairs_(queue, stem, "gather_pairs"),
-      add_normals_(queue, stem, "add_normals"),
-      turn_near_(queue, stem, "turn_near") {}
+      edge_sums_(queue, Index{stride_} * 9),
+      all_sums_(queue, normals_ ? Index{stride_} * 9 : 0),
+      gather_pairs_(queue, "pairs", "gather_pairs"),
+      add_normals_(queue, "pairs", "add_normals") {}
 
 void PairSums::gather(const Positions& positions, const Positions& targets) {
   if (positions.rows() != 0) {
     const Eigen::RowVector3d origin = positions.row(0);
     positions_.upload((positions.rowwise() - origin) * scales_.per_length, Layout::rows);
   }
-  gather_pairs_.launch(count_, offsets_, pairs_, edges_, positions_, edge_sums_);
+  gather_pairs_.launch(count_, stride_, offsets_, pairs_, edges_, positions_, edge_sums_);
   if (normals_) {
     targets_.upload(targets);
-    add_normals_.launch(count_, edge_sums_, weighted_normals_, targets_, all_sums_);
+    add_normals_.launch(count_, stride_, edge_sums_, weighted_normals_, targets_, all_sums_);
   }
-  turn_near_.launch(count_, all(), turns_);
 }
 
 }  // namespace swage

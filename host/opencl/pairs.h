@@ -1,8 +1,6 @@
 // What rotation and similarity share: the covariances of each element's pairs and normals.
 #pragma once
 
-#include <string>
-
 #include "kernel.h"
 #include "swage/steps.h"
 
@@ -20,29 +18,30 @@ Eigen::Index elements_of(const PairsRest& rest);
 
 class PairSums {
  public:
-  /// With the kernels of kernels/<stem>.cl.
-  PairSums(const Queue& queue, const std::string& stem, const PairsRest& rest);
+  PairSums(const Queue& queue, const PairsRest& rest);
 
   Eigen::Index count() const { return count_; }
-  /// #N × 9, in columns: sum_p w_p b_p a_pᵀ, and the same with the normals.
+  /// How far apart columns begin: there is room for the elements of whole items of kernels in lanes.
+  int stride() const { return stride_; }
+  /// Of kernels in lanes.
+  Eigen::Index items() const { return stride_ / lanes_; }
+  /// stride × 9, in columns: sum_p w_p b_p a_pᵀ, and the same with the normals.
   const Reals& edges() const { return edge_sums_; }
   const Reals& all() const { return normals_ ? all_sums_ : edge_sums_; }
-
-  /// #N × 4, in columns: what the last step of the closest rotations begins with.
-  const Reals& turns() const { return turns_; }
 
   void gather(const Positions& positions, const Positions& targets);
 
  private:
-  PairSums(const Queue& queue, const std::string& stem, const PairsRest& rest, const PairScales& scales);
+  PairSums(const Queue& queue, const PairsRest& rest, const PairScales& scales);
 
   PairScales scales_;
   Eigen::Index count_;
+  int lanes_, stride_;
   bool normals_;
   Ints offsets_, pairs_;
   Reals edges_, weighted_normals_;
-  Reals positions_, targets_, edge_sums_, all_sums_, turns_;
-  Kernel gather_pairs_, add_normals_, turn_near_;
+  Reals positions_, targets_, edge_sums_, all_sums_;
+  Kernel gather_pairs_, add_normals_;
 };
 
 }  // namespace swage

@@ -8,15 +8,15 @@ namespace {
 class OpenClRotation final : public RotationStep {
  public:
   OpenClRotation(const Queue& queue, const PairsRest& rest)
-      : sums_(queue, "rotation", rest),
-        rotations_(queue, sums_.count() * 9),
+      : sums_(queue, rest),
+        rotations_(queue, Eigen::Index{sums_.stride()} * 9),
         fit_(queue, "rotation", "fit_rotations") {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& rotations) override {
     sums_.gather(positions, targets);
-    fit_.launch(sums_.count(), sums_.all(), sums_.turns(), rotations_);
+    fit_.launch(sums_.items(), sums_.stride(), sums_.all(), rotations_);
     rotations.resize(sums_.count(), 9);
-    rotations_.download(rotations);
+    rotations_.download_strided(rotations, sums_.stride());
   }
 
  private:

@@ -10,11 +10,11 @@ namespace {
 // Weights that cancel leave this part of their terms as rounding.
 constexpr double kNoSpread = 1e-12;
 
-/// 1 / sum_p w_p |a_p|², or 0 where the sum vanishes.
-Eigen::VectorXd inverse_spreads(const PairsRest& rest) {
+/// 1 / sum_p w_p |a_p|², or 0 where the sum vanishes, and to fill up `size`.
+Eigen::VectorXd inverse_spreads(const PairsRest& rest, Eigen::Index size) {
   const PairScales scales(rest);
-  Eigen::VectorXd inverses(elements_of(rest));
-  for (Eigen::Index i = 0; i < inverses.size(); ++i) {
+  Eigen::VectorXd inverses = Eigen::VectorXd::Zero(size);
+  for (Eigen::Index i = 0; i < elements_of(rest); ++i) {
     const auto at = static_cast<size_t>(i);
     double spread = 0, terms = 0;
     for (int p = rest.offsets[at]; p < rest.offsets[at + 1]; ++p) {
@@ -31,16 +31,16 @@ Eigen::VectorXd inverse_spreads(const PairsRest& rest) {
 class OpenClSimilarity final : public SimilarityStep {
  public:
   OpenClSimilarity(const Queue& queue, const PairsRest& rest)
-      : sums_(queue, "similarity", rest),
-        inverse_spreads_(queue, inverse_spreads(rest)),
-        similarities_(queue, sums_.count() * 9),
+      : sums_(queue, rest),
+        inverse_spreads_(queue, inverse_spreads(rest, sums_.stride())),
+        similarities_(queue, Eigen::Index{sums_.stride()} * 9),
         fit_(queue, "similarity", "fit_similarities") {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& similarities) override {
     sums_.gather(positions, targets);
-    fit_.launch(sums_.count(), sums_.all(), sums_.turns(), sums_.edges(), inverse_spreads_, similarities_);
+    fit_.launch(sums_.items(), sums_.stride(), sums_.all(), sums_.edges(), inverse_spreads_, similarities_);
     similarities.resize(sums_.count(), 9);
-    similarities_.download(similarities);
+    similarities_.download_strided(similarities, sums_.stride());
   }
 
  private:

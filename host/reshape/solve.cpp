@@ -103,8 +103,9 @@ bool Reshape::prepare(const ProgressFn& progress) {
   const Stopwatch watch(plan.prepare_seconds);
   const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
   if (!goes_on("curvature", 0)) return false;
-  const Curvatures curvatures = plan.options.unit_box_curvatures ? *plan.options.unit_box_curvatures
-                                                                 : curvature(unit_mesh.positions, unit_mesh.triangles);
+  const Curvatures curvatures = plan.options.unit_box_curvatures
+                                    ? *plan.options.unit_box_curvatures
+                                    : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
   plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
   plan.step = plan.options.backend->transform(plan.rest);
   if (!goes_on("order", 0.2)) return false;

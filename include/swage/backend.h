@@ -54,9 +54,9 @@ struct Device {
 /// with more compute units first. Empty where there is no platform. Throws Unavailable where the build has no OpenCL.
 std::vector<Device> opencl_devices();
 
-/// The backend on a device, but for curvature, which the reference does: `device` is an index or a part of a name of
-/// opencl_devices(); empty takes the first usable. Throws Unavailable, saying what there is, where none fits, the
-/// device lacks what `precision` needs, or the build has no OpenCL.
+/// The backend on a device: `device` is an index or a part of a name of opencl_devices(); empty takes the first usable.
+/// Throws Unavailable, saying what there is, where none fits, the device lacks what `precision` needs, or the build has
+/// no OpenCL.
 std::shared_ptr<Backend> opencl_backend(const std::string& device = "", Precision precision = Precision::twice);
 
 }  // namespace swage

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "swage/backend.h"
 #include "swage/mesh.h"
 
 namespace swage {
@@ -21,10 +22,12 @@ struct CurvatureOptions {
 /// of the quadric z = a x² + b x y + c y² + d x + e y that fits its neighbourhood within its piece best: the
 /// flattest of those where one coefficient is undetermined (a tube without inner rings); 0 where more are.
 ///
+/// `backend` does the fits.
+///
 /// Goldfeather and Interrante 2004 for the fit; Panozzo, Puppo and Rocca 2010 for the neighbourhood.
 /// Throws InvalidInput as check() does, and for a crease angle outside [0, pi] or rings below 1.
-Curvatures curvature(const PositionsRef& positions, const TrianglesRef& triangles,
-                     const CurvatureOptions& options = {});
+Curvatures curvature(const PositionsRef& positions, const TrianglesRef& triangles, const CurvatureOptions& options = {},
+                     const Backend& backend = *cpu_backend());
 
 /// Reads a `.fk` file: a line a triangle, two principal curvatures of the mesh scaled so that it fits the unit box.
 /// Returned as they stand there. Throws UnreadableFile, naming the line, where it has not `triangle_count` lines of

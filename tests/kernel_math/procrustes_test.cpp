@@ -21,6 +21,8 @@ namespace {
 // clang-format off
 namespace in_single {
 using real = float;
+using scalar = float;
+using mask = int;
 using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
@@ -29,6 +31,8 @@ using std::fabs, std::sqrt;
 }  // namespace in_single
 namespace in_double {
 using real = double;
+using scalar = double;
+using mask = int;
 using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
@@ -47,7 +51,9 @@ struct Tolerances {
 
 struct Single {
   using real = float;
-  static constexpr Tolerances kTolerances{1e-5, 1e-5};
+using scalar = float;
+using mask = int;
+  static constexpr Tolerances kTolerances{1e-5, 2e-6};
   static constexpr Precision kPrecision = Precision::single;
   static auto closest(float xx, float xy, float xz, float yx, float yy, float yz, float zx, float zy, float zz) {
     using namespace in_single;
@@ -57,7 +63,9 @@ struct Single {
 
 struct Twice {
   using real = double;
-  static constexpr Tolerances kTolerances{1e-12, 1e-9};
+using scalar = double;
+using mask = int;
+  static constexpr Tolerances kTolerances{1e-14, 1e-10};
   static constexpr Precision kPrecision = Precision::twice;
   static auto closest(double xx, double xy, double xz, double yx, double yy, double yz, double zx, double zy,
                       double zz) {

@@ -15,7 +15,7 @@ namespace {
 using test::context_or_skip;
 
 constexpr const char* kScale = R"(
-kernel void scale(const int count, global const real* from, const real factor, const int add, global real* to) {
+kernel void scale(const int count, global const scalar* from, const scalar factor, const int add, global scalar* to) {
   const int i = (int)get_global_id(0);
   if (i >= count) return;
   to[i] = factor * from[i] + add;
@@ -63,7 +63,7 @@ TEST_P(KernelTest, VisitsEachElementOnce) {
 
 TEST_P(KernelTest, TheLogNamesFileAndLine) {
   try {
-    context_->program("broken.cl", "\n\nkernel void broken(global real* x) { x[0] = nowhere; }\n");
+    context_->program("broken.cl", "\n\nkernel void broken(global scalar* x) { x[0] = nowhere; }\n");
     FAIL() << "built";
   } catch (const Unavailable& refused) {
     EXPECT_NE(std::string(refused.what()).find("kernels/broken.cl:3:"), std::string::npos) << refused.what();
@@ -94,7 +94,7 @@ TEST_P(KernelTest, WrongArgumentsAreRefused) {
 
 TEST_P(KernelTest, ContractionIsOff) {
   constexpr const char* kFused = R"(
-kernel void fused(const int count, global const real* a, global const real* b, global real* sum) {
+kernel void fused(const int count, global const scalar* a, global const scalar* b, global scalar* sum) {
   const int i = (int)get_global_id(0);
   if (i >= count) return;
   sum[i] = a[i] * b[i] - a[i] * b[i];

@@ -115,7 +115,7 @@ TEST_F(ProgramCacheTest, ManyWritersLeaveOneWholeEntry) {
   EXPECT_EQ(files().size(), 1);
 }
 
-constexpr const char* kDouble = "kernel void twice(const int count, global real* x) { x[get_global_id(0)] *= 2; }";
+constexpr const char* kDouble = "kernel void twice(const int count, global scalar* x) { x[get_global_id(0)] *= 2; }";
 
 /// Runs a program that a context of its own built through the cache.
 void expect_runs(const ProgramCache& cache) {

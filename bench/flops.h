@@ -1,0 +1,13 @@
+// What a step computes, counted by running the kernels' own maths on numbers that count.
+#pragma once
+
+namespace swage::bench {
+
+struct Flops {
+  int sums = 0, products = 0, quotients = 0, roots = 0;  // Comparisons and choices are not in them.
+  int all() const { return sums + products + quotients + roots; }
+};
+
+Flops flops_of_closest_rotation();
+
+}  // namespace swage::bench

@@ -1,0 +1,261 @@
+// The quadric height z = a x² + b x y + c y² + d x + e y over a vertex's tangent plane that fits its neighbours best,
+// and its principal curvatures (Goldfeather and Interrante 2004). In C99 ∩ C++, after vec3.h. Two passes over the
+// neighbours, then neither loops nor branches:
+//  1. How far they spread along the plane's principal axes: the units that the fit measures lengths in.
+//  2. The triangle R of the fit's least squares, a neighbour after the other, by rotations without square roots
+//     (Gentleman 1973). Normal equations would square a condition that single precision has no room for.
+//  3. The singular values of R: its rows are turned until they are orthogonal (Hestenes 1958), the right-hand side with
+//     them. Values below kSingular of the largest count as 0: the flattest of all quadrics that fit as well.
+//  4. The curvatures of that quadric's graph.
+
+/// Two directions that span the plane normal to a unit vector.
+typedef struct {
+  Vec3 u, w;
+} Plane;
+
+/// Both 0 where n is.
+static inline Plane plane_normal_to(Vec3 n) {
+  const int along_x = fabs(n.x) > fabs(n.y);
+  const Vec3 v = vec3(along_x ? -n.z : (real)0, along_x ? (real)0 : n.z, along_x ? n.x : -n.y);
+  const real length = sqrt(dot3(v, v));
+  Plane plane;
+  plane.u = scale3(length > (real)0 ? (real)1 / length : (real)0, v);
+  plane.w = cross3(n, plane.u);
+  return plane;
+}
+
+/// Of places (x, y) in a plane and heights over it: the triangle [√xx, √xx r; 0, √yy] of the places, and the sum of the
+/// squared heights.
+typedef struct {
+  real xx, r, yy, zz;
+} Spread;
+
+static inline Spread no_spread(void) {
+  Spread s;
+  s.xx = (real)1e-35;  // So that it is never 0.
+  s.r = s.yy = s.zz = (real)0;
+  return s;
+}
+
+static inline Spread spread_to(Spread s, Plane plane, Vec3 normal, Vec3 offset) {
+  const real x = dot3(offset, plane.u), y = dot3(offset, plane.w), z = dot3(offset, normal);
+  const real xx = s.xx + x * x, rest = y - x * s.r;
+  const real inverse = (real)1 / xx, kept = s.xx * inverse;
+  Spread to;
+  to.xx = xx;
+  to.r = kept * s.r + x * inverse * y;
+  to.yy = s.yy + kept * rest * rest;
+  to.zz = s.zz + z * z;
+  return to;
+}
+
+/// The plane's principal axes, each in parts of the spread along it, and 1 / spread. All 0 where the places lie on a
+/// line, seen along the normal.
+typedef struct {
+  Plane axes;
+  real per_u, per_w;
+} Units;
+
+static inline Units units_of(Spread s, Plane plane) {
+  const real xx = s.xx, xy = s.xx * s.r, yy = xy * s.r + s.yy;
+  // As turn_rows does, with columns.
+  const real h = yy - xx, size = fabs(h) + sqrt(h * h + (real)4 * xy * xy) + (real)1e-35;
+  const real t = copysign((real)2, h) * xy / size;
+  const real c = (real)1 / sqrt((real)1 + t * t), sine = c * t;
+  const real a = sqrt(xx), b = a * s.r, e = sqrt(s.yy);
+  const real ux = c * a - sine * b, uy = sine * e, wx = sine * a + c * b, wy = c * e;
+  const real uu = sqrt(ux * ux + uy * uy), ww = sqrt(wx * wx + wy * wy);
+  const real least = (real)1e-4 * sqrt(uu * uu + ww * ww + s.zz);  // kLine of the reference.
+  const int any = uu > least && ww > least;
+  Units units;
+  units.per_u = any ? (real)1 / uu : (real)0;
+  units.per_w = any ? (real)1 / ww : (real)0;
+  units.axes.u = scale3(units.per_u, sub3(scale3(c, plane.u), scale3(sine, plane.w)));
+  units.axes.w = scale3(units.per_w, add3(scale3(sine, plane.u), scale3(c, plane.w)));
+  return units;
+}
+
+/// An equation of the fit: xx a + xy √2 b' + yy c + x d + y e = z. With the root, b = √2 b', no turn of the axes
+/// changes how flat a quadric counts.
+typedef struct {
+  real xx, xy, yy, x, y, z;
+} Terms;
+
+static inline Terms terms(real xx, real xy, real yy, real x, real y, real z) {
+  Terms t;
+  t.xx = xx;
+  t.xy = xy;
+  t.yy = yy;
+  t.x = x;
+  t.y = y;
+  t.z = z;
+  return t;
+}
+
+static inline Terms add_terms(Terms a, Terms b) {
+  return terms(a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline Terms scale_terms(real s, Terms a) {
+  return terms(s * a.xx, s * a.xy, s * a.yy, s * a.x, s * a.y, s * a.z);
+}
+static inline real dot_terms(Terms a, Terms b) {
+  return a.xx * b.xx + a.xy * b.xy + a.yy * b.yy + a.x * b.x + a.y * b.y;
+}
+
+static inline Terms terms_at(Units units, Vec3 normal, Vec3 offset) {
+  const real x = dot3(offset, units.axes.u), y = dot3(offset, units.axes.w), z = dot3(offset, normal);
+  return terms(x * x, (real)1.4142135623730951 * x * y, y * y, x, y, z);
+}
+
+/// A row √weight terms.
+typedef struct {
+  real weight;
+  Terms terms;
+} Row;
+
+static inline Row row(real weight, Terms of) {
+  Row r;
+  r.weight = weight;
+  r.terms = of;
+  return r;
+}
+
+/// A row of the triangle, its first term 1, turned with another so that the other's term `lead` there becomes 0.
+typedef struct {
+  Row row, other;
+} Turned;
+
+static inline Turned fold_row(Row into, Row other, real lead) {
+  const real taken = other.weight * lead, weight = into.weight + taken * lead, inverse = (real)1 / weight;
+  const real kept = into.weight * inverse;
+  Turned turned;
+  turned.row = row(weight, add_terms(scale_terms(kept, into.terms), scale_terms(taken * inverse, other.terms)));
+  turned.other = row(other.weight * kept, add_terms(other.terms, scale_terms(-lead, into.terms)));
+  return turned;
+}
+
+/// R and the right-hand side turned with it: rows that begin, with 1, one after the other.
+typedef struct {
+  Row xx, xy, yy, x, y;
+} Triangle;
+
+/// But for weights that no rounding shows, so that none is 0.
+static inline Triangle no_equations(void) {
+  const Row none = row((real)1e-30, terms((real)0, (real)0, (real)0, (real)0, (real)0, (real)0));
+  Triangle r;
+  r.xx = r.xy = r.yy = r.x = r.y = none;
+  return r;
+}
+
+static inline Triangle fold(Triangle r, Terms equation) {
+  const Turned xx = fold_row(r.xx, row((real)1, equation), equation.xx);
+  const Turned xy = fold_row(r.xy, xx.other, xx.other.terms.xy);
+  const Turned yy = fold_row(r.yy, xy.other, xy.other.terms.yy);
+  const Turned x = fold_row(r.x, yy.other, yy.other.terms.x);
+  const Turned y = fold_row(r.y, x.other, x.other.terms.y);
+  Triangle folded;
+  folded.xx = xx.row;
+  folded.xy = xy.row;
+  folded.yy = yy.row;
+  folded.x = x.row;
+  folded.y = y.row;
+  return folded;
+}
+
+/// R's rows and what becomes of them.
+typedef struct {
+  Terms a, b, c, d, e;
+} Rows;
+
+static inline Terms root_row(real weight, Terms of) { return scale_terms(sqrt(weight), of); }
+
+static inline Rows rows_of(Triangle r) {
+  const real o = (real)0, l = (real)1;
+  const Terms a = r.xx.terms, b = r.xy.terms, c = r.yy.terms, d = r.x.terms, e = r.y.terms;
+  Rows rows;
+  rows.a = root_row(r.xx.weight, terms(l, a.xy, a.yy, a.x, a.y, a.z));
+  rows.b = root_row(r.xy.weight, terms(o, l, b.yy, b.x, b.y, b.z));
+  rows.c = root_row(r.yy.weight, terms(o, o, l, c.x, c.y, c.z));
+  rows.d = root_row(r.x.weight, terms(o, o, o, l, d.y, d.z));
+  rows.e = root_row(r.y.weight, terms(o, o, o, o, l, e.z));
+  return rows;
+}
+
+/// Two rows turned by the smaller angle that makes them orthogonal. No comparison: see procrustes.h.
+typedef struct {
+  Terms p, q;
+} Pair;
+
+static inline Pair turn_rows(Terms p, Terms q) {
+  const real o = dot_terms(p, q), h = dot_terms(q, q) - dot_terms(p, p);
+  const real size = fabs(h) + sqrt(h * h + (real)4 * o * o) + (real)1e-35;
+  const real t = copysign((real)2, h) * o / size;
+  const real c = (real)1 / sqrt((real)1 + t * t), s = c * t;
+  Pair turned;
+  turned.p = add_terms(scale_terms(c, p), scale_terms(-s, q));
+  turned.q = add_terms(scale_terms(s, p), scale_terms(c, q));
+  return turned;
+}
+
+/// Every two rows once.
+static inline Rows sweep(Rows r) {
+  const Pair ab = turn_rows(r.a, r.b), cd = turn_rows(r.c, r.d);
+  const Pair ac = turn_rows(ab.p, cd.p), be = turn_rows(ab.q, r.e);
+  const Pair ad = turn_rows(ac.p, cd.q), ce = turn_rows(ac.q, be.q);
+  const Pair ae = turn_rows(ad.p, ce.q), bd = turn_rows(be.p, ad.q);
+  const Pair bc = turn_rows(bd.p, ce.p), de = turn_rows(bd.q, ae.q);
+  Rows swept;
+  swept.a = ae.p;
+  swept.b = bc.p;
+  swept.c = bc.q;
+  swept.d = de.p;
+  swept.e = de.q;
+  return swept;
+}
+
+/// The larger one, but for rounding: by arithmetic, as procrustes.h says.
+static inline real larger_value(real a, real b) { return a + (real)0.5 * (b - a + fabs(b - a)); }
+
+/// What an orthogonal row tells of the coefficients: nothing where its square is below `least`.
+static inline Terms told(Terms r, real least) {
+  const real square = dot_terms(r, r);
+  const int any = square > least;
+  return scale_terms(any ? r.z / (any ? square : (real)1) : (real)0, r);
+}
+static inline real counts(Terms r, real least) { return dot_terms(r, r) > least ? (real)1 : (real)0; }
+
+/// From orthogonal rows: the coefficients a, b', c, d, e in the places of their terms; all 0 where more than one can't
+/// be told.
+static inline Terms coefficients(Rows r) {
+  const real ab = larger_value(dot_terms(r.a, r.a), dot_terms(r.b, r.b));
+  const real cd = larger_value(dot_terms(r.c, r.c), dot_terms(r.d, r.d));
+  const real largest = larger_value(larger_value(ab, cd), dot_terms(r.e, r.e));
+  const real least = (real)1e-6 * largest;  // kSingular of the reference, squared.
+  const real rank =
+      counts(r.a, least) + counts(r.b, least) + counts(r.c, least) + counts(r.d, least) + counts(r.e, least);
+  const Terms sum =
+      add_terms(add_terms(add_terms(told(r.a, least), told(r.b, least)), add_terms(told(r.c, least), told(r.d, least))),
+                told(r.e, least));
+  return scale_terms(rank > (real)3.5 ? (real)1 : (real)0, sum);
+}
+
+/// k1 >= k2.
+typedef struct {
+  real k1, k2;
+} PrincipalCurvatures;
+
+/// Of the graph of the quadric with these coefficients in units of 1 / per_u and 1 / per_w, its normal up: the
+/// eigenvalues of C⁻¹ L C⁻ᵀ with L the second fundamental form and C Cᵀ the first.
+static inline PrincipalCurvatures principal_curvatures(Terms of, real per_u, real per_w) {
+  const real gx = per_u * of.x, gy = per_w * of.y;
+  const real xx = (real)2 * per_u * per_u * of.xx, yy = (real)2 * per_w * per_w * of.yy;
+  const real xy = (real)1.4142135623730951 * per_u * per_w * of.xy;
+  const real pp = (real)1 + gx * gx, ss = pp + gy * gy, p = sqrt(pp), s = sqrt(ss);
+  const real q = -gx * gy / (p * s), r = p / s;  // C⁻¹ = [1 / p, 0; q, r]
+  const real a = xx / pp, o = (xx * q + xy * r) / p, b = q * q * xx + (real)2 * q * r * xy + r * r * yy;
+  const real mean = (real)0.5 * (a + b), h = (real)0.5 * (a - b), radius = sqrt(h * h + o * o);
+  PrincipalCurvatures k;
+  k.k1 = (radius - mean) / s;
+  k.k2 = (-radius - mean) / s;
+  return k;
+}

@@ -1,0 +1,3 @@
+// `real` as one scalar: an item an element.
+typedef scalar real;
+typedef int mask;
