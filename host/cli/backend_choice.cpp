@@ -24,11 +24,13 @@ std::string backend_name(const CommonOptions& common) {
   return name.empty() ? "auto" : name;
 }
 
-/// In double where the device has it.
-std::shared_ptr<Backend> backend_on(const std::string& device) {
+/// In double where the device has it and no other is asked for.
+std::shared_ptr<Backend> backend_on(const std::string& device, const std::string& precision) {
+  if (precision == "single") return opencl_backend(device, Precision::single);
   try {
     return opencl_backend(device, Precision::twice);
   } catch (const Unavailable&) {
+    if (precision == "double") throw;
     return opencl_backend(device, Precision::single);
   }
 }
@@ -45,15 +47,20 @@ std::vector<Device> devices_of_build() {
 }  // namespace
 
 BackendChoice::BackendChoice(const CommonOptions& common)
-    : name_(backend_name(common)), device_(or_environment(common.device, "SWAGE_DEVICE")) {
+    : name_(backend_name(common)),
+      device_(or_environment(common.device, "SWAGE_DEVICE")),
+      precision_(common.precision) {
   if (name_ != "auto" && name_ != "cpu" && name_ != "opencl") {
     throw WrongUsage("--backend (or SWAGE_BACKEND) is '" + name_ + "': use auto, cpu or opencl");
   }
   if (name_ == "cpu" && !common.device.empty()) {
     throw WrongUsage("--device " + common.device + " names an OpenCL device, --backend cpu uses none: leave one out");
   }
+  if (name_ == "cpu" && precision_ == "single") {
+    throw WrongUsage("--precision single is for OpenCL devices, the cpu backend computes in double: leave one out");
+  }
   if (name_ == "cpu") asked_for_ = cpu_backend();
-  if (name_ == "opencl") asked_for_ = backend_on(device_);
+  if (name_ == "opencl") asked_for_ = backend_on(device_, precision_);
 }
 
 std::shared_ptr<Backend> BackendChoice::for_triangles(int count) const {
@@ -63,8 +70,8 @@ std::shared_ptr<Backend> BackendChoice::for_triangles(int count) const {
 
 std::shared_ptr<Backend> BackendChoice::on_device() const {
   try {
-    if (!device_.empty()) return backend_on(device_);
-    if (const auto device = device_of_auto()) return backend_on(std::to_string(device->index));
+    if (!device_.empty()) return backend_on(device_, precision_);
+    if (const auto device = device_of_auto()) return backend_on(std::to_string(device->index), precision_);
   } catch (const Unavailable& reason) {
     spdlog::warn("the cpu does the local steps: {}", reason.what());
   }

@@ -1,4 +1,4 @@
-// Which backend does the local steps: --backend, --device, SWAGE_BACKEND and SWAGE_DEVICE.
+// Which backend does the local steps: --backend, --device, --precision, SWAGE_BACKEND and SWAGE_DEVICE.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ class BackendChoice {
  private:
   std::shared_ptr<Backend> on_device() const;
 
-  std::string name_, device_;
+  std::string name_, device_, precision_;
   std::shared_ptr<Backend> asked_for_;  ///< Null where auto.
 };
 

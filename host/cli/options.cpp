@@ -55,6 +55,11 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
                  "OpenCL device, by index or part of its name in `swage devices` (SWAGE_DEVICE, else the first)")
       ->group(group)
       ->type_name("TEXT");
+  app.add_option("--precision", common.precision,
+                 "What an OpenCL device computes in: single or double (double where the device has it)")
+      ->group(group)
+      ->check(CLI::IsMember({"single", "double"}))
+      ->type_name("NAME");
   app.add_option("--threads", common.threads, "Threads (as many as there are processors)")
       ->group(group)
       ->check(between(1, 1024))

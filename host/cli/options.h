@@ -12,9 +12,10 @@ namespace swage::cli {
 inline constexpr const char* kStdout = "-";
 
 struct CommonOptions {
-  std::string backend;  ///< Empty where the option is not given.
-  std::string device;   ///< Likewise.
-  int threads = 0;      ///< 0 leaves it to OpenMP.
+  std::string backend;    ///< Empty where the option is not given.
+  std::string device;     ///< Likewise.
+  std::string precision;  ///< Likewise.
+  int threads = 0;        ///< 0 leaves it to OpenMP.
   bool quiet = false;
   bool verbose = false;
 };

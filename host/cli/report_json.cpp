@@ -70,6 +70,7 @@ void add_run(Json& json, const ReshapeJob& job, const Mesh& mesh, const Backend&
   json["solver"] = job.solver;
   json["backend"] = backend.name();
   json["device"] = backend.device();
+  json["precision"] = backend.precision() == Precision::single ? "single" : "double";
   json["threads"] = threads_in_use();
 }
 

@@ -14,6 +14,7 @@ class OpenClBackend final : public Backend {
 
   std::string name() const override { return "opencl"; }
   std::string device() const override { return facts_.name; }
+  Precision precision() const override { return context_->precision(); }
   Traffic traffic() const override { return context_->traffic(); }
 
   std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const override {

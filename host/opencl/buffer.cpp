@@ -30,7 +30,11 @@ std::size_t bytes_of_real(const Queue& queue) {
 }  // namespace
 
 Buffer::Buffer(const Queue& queue, std::size_t count, std::size_t bytes_each)
-    : queue_(queue), count_(count), bytes_each_(bytes_each), handle_(allocate(queue, count, bytes_each)) {}
+    : queue_(queue),
+      count_(count),
+      bytes_each_(bytes_each),
+      claim_(queue.context->claim(count * bytes_each)),
+      handle_(allocate(queue, count, bytes_each)) {}
 
 Buffer::View::View(const Buffer& buffer, std::size_t bytes, cl_map_flags flags)
     : buffer_(buffer), data_(ask("device array", [&] {

@@ -45,6 +45,7 @@ class Buffer {
 
   Queue queue_;
   std::size_t count_, bytes_each_;
+  std::shared_ptr<const std::size_t> claim_;
   cl::Buffer handle_;
 };
 

@@ -55,7 +55,8 @@ Context::Context(const cl::Device& device, Precision precision, ProgramCache cac
       lanes_(lanes_for(device)),
       handle_(make_context(device)),
       cache_(std::move(cache)),
-      options_(options_for(device)) {}
+      options_(options_for(device)),
+      memory_(device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>()) {}
 
 cl::Program Context::program(const std::string& stem) {
   return build(stem + ".cl", program_source(stem, {precision_, lanes_}));
@@ -106,6 +107,20 @@ cl::Program Context::compile(const std::string& name, const std::string& source)
     if (cache_.keeps()) cache_.keep(key, program.getInfo<CL_PROGRAM_BINARIES>().front());
     return program;
   });
+}
+
+std::shared_ptr<const std::size_t> Context::claim(std::size_t bytes) {
+  const std::size_t claimed = claimed_ += bytes;
+  if (claimed > memory_) {
+    claimed_ -= bytes;
+    throw Unavailable("device array of " + std::to_string(bytes) + " bytes: of the device's " +
+                      std::to_string(memory_) + ", " + std::to_string(claimed - bytes) +
+                      " are in use: take a smaller mesh, another device or the cpu backend");
+  }
+  return {new std::size_t(bytes), [this](const std::size_t* claim) {
+            claimed_ -= *claim;
+            delete claim;
+          }};
 }
 
 Traffic Context::traffic() const { return {uploaded_, downloaded_, static_cast<double>(build_nanoseconds_) * 1e-9}; }

@@ -41,6 +41,10 @@ class Context {
   /// The same of a text that stands in no file: `name` stands for it in messages.
   cl::Program program(const std::string& name, const std::string& text);
 
+  /// Room for an array, until the last copy of what this gives is gone. Throws Unavailable where the device has not as
+  /// much left: some allocate at first use only, and end the process there.
+  std::shared_ptr<const std::size_t> claim(std::size_t bytes);
+
   void count_upload(std::size_t bytes) { uploaded_ += bytes; }
   void count_download(std::size_t bytes) { downloaded_ += bytes; }
   Traffic traffic() const;
@@ -57,7 +61,8 @@ class Context {
   std::string options_;
   std::mutex mutex_;
   std::map<std::string, std::shared_future<cl::Program>> programs_;
-  std::atomic<std::size_t> uploaded_{0}, downloaded_{0};
+  std::size_t memory_;
+  std::atomic<std::size_t> claimed_{0}, uploaded_{0}, downloaded_{0};
   std::atomic<long long> build_nanoseconds_{0};
 };
 

@@ -3,6 +3,8 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "swage/error.h"
@@ -12,6 +14,7 @@ namespace swage {
 BlockSystem::BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings)
     : width_(3 * rows_per_group) {
   order(group_count, couplings);
+  check_factor();
   lay_out();
 }
 
@@ -41,6 +44,29 @@ void BlockSystem::order(int group_count, const std::vector<std::pair<int, int>>&
     }
     std::sort(above.begin(), above.end());
   }
+}
+
+/// The factor's entries are counted in int: beyond, its making would end in the dark.
+void BlockSystem::check_factor() const {
+  std::vector<int> parent(above_.size(), -1), seen_from(above_.size(), -1);
+  std::int64_t blocks = 0;
+  for (int p = 0; p < static_cast<int>(above_.size()); ++p) {
+    seen_from[static_cast<size_t>(p)] = p;
+    ++blocks;
+    // The row of p in the factor: all on the way up the elimination tree to p.
+    for (int q : above_[static_cast<size_t>(p)]) {
+      for (; seen_from[static_cast<size_t>(q)] != p; q = parent[static_cast<size_t>(q)]) {
+        if (parent[static_cast<size_t>(q)] == -1) parent[static_cast<size_t>(q)] = p;
+        seen_from[static_cast<size_t>(q)] = p;
+        ++blocks;
+      }
+    }
+  }
+  const std::int64_t entries = blocks * width_ * width_;
+  if (entries <= std::numeric_limits<int>::max()) return;
+  throw Unsolvable("factor: the matrix of " + std::to_string(above_.size()) + " elements needs up to " +
+                   std::to_string(entries) + " entries, " + std::to_string(std::numeric_limits<int>::max()) +
+                   " can be held: take a coarser mesh");
 }
 
 void BlockSystem::lay_out() {

@@ -17,7 +17,8 @@ namespace swage {
 /// place, and the factor reads them in place.
 class BlockSystem {
  public:
-  /// `couplings`: pairs of different groups that share a term, in any order, repeats allowed.
+  /// `couplings`: pairs of different groups that share a term, in any order, repeats allowed. Throws Unsolvable where
+  /// the factor would have more entries than int counts.
   BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings);
 
   void set_zero() { values().setZero(); }
@@ -46,6 +47,7 @@ class BlockSystem {
   Eigen::VectorXd ordered(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
   Eigen::VectorXd as_given(const Eigen::VectorXd& ordered) const;
   void order(int group_count, const std::vector<std::pair<int, int>>& couplings);
+  void check_factor() const;
   void lay_out();
   /// Where the first entry of block (above, column's group) stands in each of the column's entries.
   int offset(int above, int group) const;

@@ -26,6 +26,7 @@ class Backend {
   virtual ~Backend() = default;
   virtual std::string name() const = 0;    ///< "cpu" or "opencl"
   virtual std::string device() const = 0;  ///< For people to read.
+  virtual Precision precision() const { return Precision::twice; }
   virtual Traffic traffic() const { return {}; }
 
   virtual std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const = 0;

@@ -95,6 +95,19 @@ TEST_F(OnDevices, OpenClIsTakenWhereAskedFor) {
   EXPECT_EQ(report({"--backend", "cpu"}, {"SWAGE_DEVICE=0"})["backend"], "cpu");
 }
 
+TEST_F(OnDevices, PrecisionIsTheDevicesBestUnlessAskedFor) {
+  EXPECT_EQ(report({"--backend", "opencl"})["precision"], first_.computes_twice ? "double" : "single");
+  EXPECT_EQ(report({"--backend", "opencl", "--precision", "single"})["precision"], "single");
+  EXPECT_EQ(report({"--backend", "cpu", "--precision", "double"})["precision"], "double");
+}
+
+TEST_F(OnDevices, APrecisionThatCannotBeIsRefused) {
+  const Outcome outcome = reshape({"--backend", "cpu", "--precision", "single", "--json", "-"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("the cpu backend computes in double"));
+  EXPECT_EQ(reshape({"--precision", "half", "--json", "-"}).code, 2);
+}
+
 TEST_F(OnDevices, SmallMeshesStayOnTheCpu) {
   EXPECT_EQ(report({}, {"SWAGE_DEVICE=0"})["backend"], "cpu");
   EXPECT_EQ(report({"--backend", "auto"})["backend"], "cpu");

@@ -56,6 +56,16 @@ TEST_P(BlockSystemOfRows, EqualsTheDenseSystem) {
 
 INSTANTIATE_TEST_SUITE_P(Widths, BlockSystemOfRows, testing::Values(1, 3));
 
+TEST(BlockSystem, AFactorBeyondIntIsRefused) {
+  constexpr int kSide = 800;
+  std::vector<std::pair<int, int>> couplings;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    if (i % kSide != 0) couplings.emplace_back(i, i - 1);
+    if (i >= kSide) couplings.emplace_back(i, i - kSide);
+  }
+  EXPECT_THROW(BlockSystem(kSide * kSide, 3, couplings), Unsolvable);
+}
+
 TEST(BlockSystem, RestoresAConstantPart) {
   Dense both = random_system(9, 1, 2);
   const Eigen::VectorXd constant = both.system.values();

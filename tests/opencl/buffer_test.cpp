@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "own_context.h"
 #include "swage/error.h"
@@ -117,6 +120,28 @@ TEST_P(BufferTest, MoreThanTheDeviceHoldsIsRefusedInWords) {
   } catch (const Unavailable& refused) {
     EXPECT_NE(std::string(refused.what()).find("cpu backend"), std::string::npos) << refused.what();
   }
+}
+
+// Nothing is written to these arrays, so that they cost no memory.
+TEST_P(BufferTest, MoreThanTheDeviceHoldsInAllIsRefusedInWords) {
+  const Queue queue(context_);
+  const auto largest = context_->device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  const auto memory = context_->device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  const auto many = static_cast<Eigen::Index>(std::min<std::size_t>(largest, 1 << 30) / real_bytes());
+  std::vector<Reals> held;
+  std::string words;
+  for (std::size_t sum = 0; sum <= 2 * memory && words.empty(); sum += static_cast<std::size_t>(many) * real_bytes()) {
+    try {
+      held.emplace_back(queue, many);
+    } catch (const Unavailable& refused) {
+      words = refused.what();
+    }
+  }
+  EXPECT_NE(words.find("are in use"), std::string::npos) << words;
+  EXPECT_LE(held.size() * static_cast<std::size_t>(many) * real_bytes(), memory);
+  EXPECT_GT((held.size() + 1) * static_cast<std::size_t>(many) * real_bytes(), memory);
+  held.pop_back();
+  EXPECT_NO_THROW(held.emplace_back(queue, many));
 }
 
 TEST_P(BufferTest, MoreThanIntCountsIsRefused) {
