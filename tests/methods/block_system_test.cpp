@@ -62,6 +62,7 @@ TEST(BlockSystem, AFactorBeyondIntIsRefused) {
   for (int i = 0; i < kSide * kSide; ++i) {
     if (i % kSide != 0) couplings.emplace_back(i, i - 1);
     if (i >= kSide) couplings.emplace_back(i, i - kSide);
+    if (i >= kSide && i % kSide != 0) couplings.emplace_back(i, i - kSide - 1);
   }
   EXPECT_THROW(BlockSystem(kSide * kSide, 3, couplings), Unsolvable);
 }
