@@ -36,9 +36,9 @@ struct Neighbour {
 /// Each triangle's first three neighbours, and the few triangles with more, with the rest of theirs.
 struct Table {
   Eigen::Matrix<int, Eigen::Dynamic, 3> neighbours;
-  Eigen::Matrix<double, Eigen::Dynamic, 33> rest;  // As couple reads it.
+  Eigen::Matrix<double, Eigen::Dynamic, 36> rest;  // As couple reads it.
   Eigen::VectorXi crowded, offsets, crowd;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> crowd_shares;
+  Eigen::Matrix<double, Eigen::Dynamic, 8> crowd_shares;
 };
 
 void fill_own(const Rest& rest, Table& table) {
@@ -49,7 +49,7 @@ void fill_own(const Rest& rest, Table& table) {
       vectors += vector.transpose() * vector / rest.mean_edge_length;
       directions += direction.transpose() * direction;
     }
-    table.rest.row(t) << upper(vectors), upper(directions), rest.normals.row(t), Eigen::Matrix<double, 1, 18>::Zero();
+    table.rest.row(t) << upper(vectors), upper(directions), rest.normals.row(t), Eigen::Matrix<double, 1, 21>::Zero();
   }
 }
 
@@ -81,11 +81,11 @@ void fill_crowds(const Rest& rest, const std::map<int, std::vector<Neighbour>>& 
   table.crowded.resize(static_cast<Index>(more.size()));
   table.offsets.setZero(table.crowded.size() + 1);
   table.crowd.resize(count);
-  table.crowd_shares.resize(count, 6);
+  table.crowd_shares.setZero(count, 8);
   for (const auto& [t, neighbours] : more) {
     for (const Neighbour& neighbour : neighbours) {
       table.crowd[k] = neighbour.triangle;
-      table.crowd_shares.row(k++) = share(rest, neighbour.pair);
+      table.crowd_shares.row(k++).head<6>() = share(rest, neighbour.pair);
     }
     table.crowded[i++] = t;
     table.offsets[i] = static_cast<int>(k);
@@ -95,7 +95,7 @@ void fill_crowds(const Rest& rest, const std::map<int, std::vector<Neighbour>>& 
 Table table_of(const Rest& rest) {
   Table table;
   table.neighbours.resize(rest.triangles.rows(), 3);
-  table.rest.resize(rest.triangles.rows(), 33);
+  table.rest.resize(rest.triangles.rows(), 36);
   fill_own(rest, table);
   fill_crowds(rest, fill_neighbours(rest, table), table);
   return table;
@@ -107,13 +107,12 @@ class OpenClCoupling final : public CouplingStep {
       : OpenClCoupling(Queue(context), rest, table_of(rest), round_triangles(rest)) {}
 
   void apply(const Transforms& transforms, Transforms& product) override {
-    transforms_.upload(transforms);
+    transforms_.upload(transforms, Layout::rows);
     couple_.launch(triangles_, normal_weight_, regularizer_weight_, neighbours_, rest_, transforms_, products_);
-    couple_crowded_.launch(crowded_, triangles_, crowded_triangles_, offsets_, crowd_, crowd_shares_, transforms_,
-                           products_);
-    couple_corners_.launch(round_, triangles_, round_triangles_, corner_rest_, transforms_, products_);
+    couple_crowded_.launch(crowded_, crowded_triangles_, offsets_, crowd_, crowd_shares_, transforms_, products_);
+    couple_corners_.launch(round_, round_triangles_, corner_rest_, transforms_, products_);
     product.resize(triangles_, 9);
-    products_.download(product);
+    products_.download(product, Layout::rows);
   }
 
  private:
@@ -124,16 +123,16 @@ class OpenClCoupling final : public CouplingStep {
         triangles_(static_cast<int>(rest.triangles.rows())),
         crowded_(static_cast<int>(table.crowded.size())),
         round_(static_cast<int>(round.triangles.size())),
-        neighbours_(queue, table.neighbours),
+        neighbours_(queue, table.neighbours, Layout::rows),
         crowded_triangles_(queue, table.crowded),
         offsets_(queue, table.offsets),
         crowd_(queue, table.crowd),
         round_triangles_(queue, round.triangles),
-        rest_(queue, table.rest),
+        rest_(queue, table.rest, Layout::rows),
         crowd_shares_(queue, table.crowd_shares, Layout::rows),
         corner_rest_(queue, round.rest.leftCols<RoundTriangles::kOfDirections>()),
-        transforms_(queue, triangles_ * 9),
-        products_(queue, triangles_ * 9) {}
+        transforms_(queue, Index{triangles_} * 9),
+        products_(queue, Index{triangles_} * 9) {}
 
   Queue queue_;
   double normal_weight_, regularizer_weight_;

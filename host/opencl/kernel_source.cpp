@@ -42,8 +42,8 @@ std::string types(const Arithmetic& arithmetic) {
   // Comparing vectors gives integers of the scalar's size.
   const std::string mask = arithmetic.lanes == 1 || single ? "int" : "long";
   return (single ? "" : "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n") + ("typedef " + scalar + " scalar;\n") +
-         "typedef " + scalar + of_lanes + " lanes;\n" + "typedef " + mask + of_lanes + " lane_mask;\n" +
-         "#define LANES " + width + '\n';
+         "typedef " + scalar + "4 scalar4;\n" + "typedef " + scalar + of_lanes + " lanes;\n" + "typedef " + mask +
+         of_lanes + " lane_mask;\n" + "#define LANES " + width + '\n';
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace swage {
 /// A file of kernels/ by its path in there; the build embeds them all. Throws std::out_of_range.
 std::string_view kernel_file(std::string_view path);
 
-/// What kernels compute in: `scalar`, and `lanes` of LANES scalars, 1 or 16.
+/// What kernels compute in: `scalar`, `scalar4`, and `lanes` of LANES scalars, 1 or 16.
 struct Arithmetic {
   Precision precision = Precision::twice;
   int lanes = 1;

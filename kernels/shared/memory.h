@@ -5,6 +5,21 @@ static inline Symmetric row6(global const real* a, int i) {
   return symmetric(a[6 * i], a[6 * i + 1], a[6 * i + 2], a[6 * i + 3], a[6 * i + 4], a[6 * i + 5]);
 }
 
+static inline Mat3 row9(global const real* a, int i) {
+  return mat3(row3(a, 3 * i), row3(a, 3 * i + 1), row3(a, 3 * i + 2));
+}
+
+static inline void store_row3(Vec3 v, global real* a, int i) {
+  a[3 * i] = v.x;
+  a[3 * i + 1] = v.y;
+  a[3 * i + 2] = v.z;
+}
+static inline void store_row9(Mat3 m, global real* a, int i) {
+  store_row3(m.x, a, 3 * i);
+  store_row3(m.y, a, 3 * i + 1);
+  store_row3(m.z, a, 3 * i + 2);
+}
+
 /// Of columns k, k + 1, k + 2; and so on.
 static inline Vec3 column3(global const real* a, int n, int k, int i) {
   return vec3(a[n * k + i], a[n * (k + 1) + i], a[n * (k + 2) + i]);

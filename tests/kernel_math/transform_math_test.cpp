@@ -20,6 +20,8 @@ using std::fabs, std::fmax, std::sqrt;
 #include "shared/symmetric.h"
 #include "shared/transform.h"
 #include "shared/triangle.h"
+#include "row.h"
+#include "shared/rows.h"
 #include "shared/coupling.h"
 }  // namespace in_single
 namespace in_double {
@@ -30,6 +32,8 @@ using std::fabs, std::fmax, std::sqrt;
 #include "shared/symmetric.h"
 #include "shared/transform.h"
 #include "shared/triangle.h"
+#include "row.h"
+#include "shared/rows.h"
 #include "shared/coupling.h"
 }  // namespace in_double
 // clang-format on
@@ -43,6 +47,7 @@ struct Single {
   using Symmetric = in_single::Symmetric;
   using Corners = in_single::Corners;
   using Sides = in_single::Sides;
+  using Rows = in_single::Rows;
   static constexpr double kTolerance = 2e-6;
   static in_single::EdgeSum no_sides() { return in_single::no_sides(); }
 };
@@ -54,6 +59,7 @@ struct Twice {
   using Symmetric = in_double::Symmetric;
   using Corners = in_double::Corners;
   using Sides = in_double::Sides;
+  using Rows = in_double::Rows;
   static constexpr double kTolerance = 1e-14;
   static in_double::EdgeSum no_sides() { return in_double::no_sides(); }
 };
@@ -64,11 +70,19 @@ class TransformMath : public testing::Test {
   using real = typename Maths::real;
   using Vec3 = typename Maths::Vec3;
   using Mat3 = typename Maths::Mat3;
+  using Rows = typename Maths::Rows;
   using Symmetric = typename Maths::Symmetric;
 
   static real to(double number) { return static_cast<real>(number); }
   static Vec3 to(const Vector3d& v) { return {to(v[0]), to(v[1]), to(v[2])}; }
   static Mat3 to(const Matrix3d& m) { return {to(Vector3d(m.row(0))), to(Vector3d(m.row(1))), to(Vector3d(m.row(2)))}; }
+  static Rows rows(const Matrix3d& m) {
+    const Mat3 a = to(m);
+    return {{a.x.x, a.x.y, a.x.z, 0}, {a.y.x, a.y.y, a.y.z, 0}, {a.z.x, a.z.y, a.z.z, 0}};
+  }
+  static Matrix3d from(const Rows& a) {
+    return Matrix3d{{a.x.x, a.x.y, a.x.z}, {a.y.x, a.y.y, a.y.z}, {a.z.x, a.z.y, a.z.z}};
+  }
   static Symmetric symmetric(const Matrix3d& m) {
     return {to(m(0, 0)), to(m(0, 1)), to(m(0, 2)), to(m(1, 1)), to(m(1, 2)), to(m(2, 2))};
   }
@@ -284,12 +298,12 @@ TYPED_TEST(TransformMath, ProductsAreTheFormulas) {
     const Matrix3d a = this->matrix(), b = this->matrix();
     const Matrix3d vectors = a.transpose() * a, directions = b.transpose() * b;
     const Vector3d normal = this->vector();
-    const Matrix3d own = this->from(own_product(this->to(a), this->symmetric(vectors), this->symmetric(directions),
-                                                this->to(normal), 3, this->to(0.5)));
+    const Matrix3d own = this->from(own_product(this->rows(a), this->rows(vectors), this->rows(directions),
+                                                this->rows(normal.transpose().replicate<3, 1>()).x, 3, this->to(0.5)));
     const Matrix3d expected = a * vectors + 0.5 * a + 3 * normal * normal.transpose() * a * directions;
     const double size = a.norm() * (vectors.norm() + 3 * normal.squaredNorm() * directions.norm() + 1);
     EXPECT_LT((own - expected).norm(), TypeParam::kTolerance * size);
-    const Matrix3d shared = this->from(shared_product(this->to(a), this->to(b), this->symmetric(vectors)));
+    const Matrix3d shared = this->from(shared_product(this->rows(a), this->rows(b), this->rows(vectors)));
     EXPECT_LT((shared - (a - b) * vectors).norm(), TypeParam::kTolerance * (a.norm() + b.norm()) * vectors.norm());
   }
 }
