@@ -76,6 +76,7 @@ void BlockSystem::lay_out() {
     for (int c = 0; c < width_; ++c) entries_of_columns.push_back(3 * static_cast<int>(above.size()) + c + 1);
   }
   matrix_.resize(unknowns, unknowns);
+  if (unknowns == 0) return;  // Eigen reads beyond an empty matrix.
   matrix_.reserve(entries_of_columns);
   for (int p = 0; p < static_cast<int>(above_.size()); ++p) {
     for (int c = 0; c < width_; ++c) {
