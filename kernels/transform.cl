@@ -1,148 +1,145 @@
-// The transform step. All lies in columns but positions, which are gathered alone.
-#include "shared/scalar.h"
+// The transform step: invert, fit_edges and map_corners of the transforms, fit_triangles and place_corners of the
+// positions. One item LANES elements. What is gathered and what is the host's lies in rows, the rest in columns.
+#include "shared/lanes.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
 #include "shared/transform.h"
 #include "shared/triangle.h"
-#include "shared/memory.h"
+#include "shared/lane_memory.h"
+#include "shared/lane_sums.h"
 
-/// One item a triangle.
-kernel void invert(const int count, global const real* transforms, global real* inverses, global real* damped) {
-  const int t = get_global_id(0);
-  if (t >= count) return;
-  const Inverse inverse = damped_inverse(column9(transforms, count, t));
-  store_column9(inverse.matrix, inverses, count, t);
-  damped[t] = inverse.damped;
-}
-
-/// One item an edge. `beside`: its first two triangles, or the one twice.
-kernel void fit_edges(const int count, const int triangles, const real normal_weight, const real scale,
-                      global const int* beside, global const real* transforms, global const real* inverses,
-                      global const real* normals, global const real* rests, global const real* weights,
-                      global const real* kept, global real* blocks, global real* sides, global real* targets) {
-  const int e = get_global_id(0);
-  if (e >= count) return;
-  const int t = beside[e], s = beside[count + e];
-  const real two = t != s ? (real)1 : (real)0;
-  const Vec3 rest = column3(rests, count, 0, e);
-  EdgeSum sum = add_side(no_sides(), 1, column9(transforms, triangles, t), column9(inverses, triangles, t),
-                         column3(normals, triangles, 0, t), rest);
-  sum = add_side(sum, two, column9(transforms, triangles, s), column9(inverses, triangles, s),
-                 column3(normals, triangles, 0, s), rest);
-  const EdgeQuadratic quadratic = edge_quadratic(sum, rest, weights[e], kept[e], normal_weight, scale);
-  store_column6(quadratic.block, blocks, count, e);
-  store_column3(quadratic.side, sides, count, 0, e);
-  targets[e] = quadratic.target;
-}
-
-/// The same for the few edges with more triangles: the item's stand at offsets[i] .. offsets[i + 1] of `beside`.
-kernel void fit_crowded_edges(const int count, const int all_edges, const int triangles, const real normal_weight,
-                              const real scale, global const int* edges, global const int* offsets,
-                              global const int* beside, global const real* transforms, global const real* inverses,
-                              global const real* normals, global const real* rests, global const real* weights,
-                              global const real* kept, global real* blocks, global real* sides, global real* targets) {
+/// Triangles. Sums: damped, regularizer.
+kernel void invert(const int items, const int count, global const host_scalar* transforms, global scalar* inverses,
+                   global scalar* sums) {
   const int i = get_global_id(0);
-  if (i >= count) return;
-  const int e = edges[i];
-  const Vec3 rest = column3(rests, all_edges, 0, e);
-  EdgeSum sum = no_sides();
-  for (int k = offsets[i]; k < offsets[i + 1]; ++k) {
-    const int t = beside[k];
-    sum = add_side(sum, 1, column9(transforms, triangles, t), column9(inverses, triangles, t),
-                   column3(normals, triangles, 0, t), rest);
+  if (i >= items) return;
+  const Mat3 transform = gather_host9(transforms, own_elements(i, count));
+  const Inverse inverse = damped_inverse(transform);
+  const real present = present_lanes(i, count);
+  store_sums(i, sums, present * inverse.damped, present * distance_from_identity(transform), (real)0);
+  store_rows9(inverse.matrix, inverses, i, count);
+}
+
+/// Edges. `beside`: their two triangles, or the one twice where there is one only or crowded.cl sees to the others.
+/// `rest`: vector, unit vector between the opposite vertices, similarity weight, kept target length or 0. Sums:
+/// transform_normal, connect, similarity.
+kernel void fit_edges(const int items, const int count, const scalar normal_weight,
+                      const scalar scale, global const int* beside, global const scalar* rest,
+                      global const scalar* weights, global const scalar* normals, global const host_scalar* transforms,
+                      global const scalar* inverses, global host_scalar* blocks, global host_scalar* sides,
+                      global host_scalar* targets, global scalar* sums) {
+  const int i = get_global_id(0);
+  if (i >= items) return;
+  const lane_index t = load_indices(beside, 2, 0, i), s = load_indices(beside, 2, 1, i);
+  const Vec3 edge = load_tile3(rest, 8, 0, i), opposite = load_tile3(rest, 8, 3, i);
+  const Mat3 transform = gather_host9(transforms, t), other = gather_host9(transforms, s);
+  const EdgeSum sum = add_sides(edge_side(transform, gather9(inverses, t), gather3(normals, t), edge),
+                                edge_side(other, gather9(inverses, s), gather3(normals, s), edge));
+  const real share = (real)0.5 + (real)0.5 * one_where(t != s);
+  const EdgeQuadratic q = edge_quadratic(sum, (real)0.5 * sum.length, share, edge, load_lanes(weights, i),
+                                         load_tile(rest, 8, 7, i), (real)normal_weight, (real)scale);
+  const Mat3 difference = sub_mat3(transform, other);
+  const real present = present_lanes(i, count), per_square = present / dot3(edge, edge);
+  store_sums(i, sums, per_square * share * sum.turned, per_square * disagreement(difference, edge),
+             present * load_tile(rest, 8, 6, i) * disagreement(difference, opposite));
+  const int elements = elements_of(i, count);
+  store_host3(vec3(q.block.xx, q.block.xy, q.block.xz), blocks + 6 * LANES * i, 6, elements);
+  store_host3(vec3(q.block.yy, q.block.yz, q.block.zz), blocks + 6 * LANES * i + 3, 6, elements);
+  store_host3(q.side, sides + 3 * LANES * i, 3, elements);
+  store_host_entries(q.target, targets + LANES * i, 1, elements);
+}
+
+/// To the edges that the item's triangles tell of.
+static inline void store_own(real weight, lane_index edge, global scalar* weights, int elements) {
+  scalar own[LANES];
+  int edges[LANES];
+  VSTORE(weight, 0, own);
+  VSTORE(edge, 0, edges);
+#pragma unroll
+  for (int k = 0; k < LANES; ++k) {
+    if (k < elements && edges[k] >= 0) weights[edges[k]] = own[k];
   }
-  const EdgeQuadratic quadratic = edge_quadratic(sum, rest, weights[e], kept[e], normal_weight, scale);
-  store_column6(quadratic.block, blocks, all_edges, e);
-  store_column3(quadratic.side, sides, all_edges, 0, e);
-  targets[e] = quadratic.target;
 }
 
-/// From vertex i to j. `residues` are what rounding took from the positions: differences of near positions stay exact.
-static inline Vec3 side_between(global const real* positions, global const real* residues, int i, int j) {
-  return add3(sub3(row3(positions, j), row3(positions, i)), sub3(row3(residues, j), row3(residues, i)));
-}
-
-/// One item an edge.
-kernel void measure_edges(const int count, const real mean_edge_length, global const int* ends,
-                          global const real* positions, global const real* residues, global const real* rests,
-                          global real* vectors, global real* weights, global real* terms) {
-  const int e = get_global_id(0);
-  if (e >= count) return;
-  const Vec3 vector = side_between(positions, residues, ends[e], ends[count + e]);
-  const Vec3 change = sub3(vector, column3(rests, count, 0, e));
-  store_column3(vector, vectors, count, 0, e);
-  weights[e] = length_weight(vector, mean_edge_length);
-  terms[e] = dot3(change, change);
-}
-
-/// One item a triangle.
-kernel void fit_triangles(const int count, const int all_edges, const real regularizer_weight,
-                          const real mean_edge_length, global const int* edges, global const real* transforms,
-                          global const real* inverses, global const real* normals, global const real* vectors,
-                          global const real* rests, global const real* weights, global real* right_hand_sides,
-                          global real* terms) {
-  const int t = get_global_id(0);
-  if (t >= count) return;
-  const int a = edges[t], b = edges[count + t], c = edges[2 * count + t];
-  const Mat3 transform = column9(transforms, count, t), inverse = column9(inverses, count, t);
-  const Vec3 normal = column3(normals, count, 0, t);
-  const real mean = mean_edge_length;
-  TriangleTerms sum = no_edges(transform, regularizer_weight);
-  sum = add_edge(sum, transform, inverse, normal, column3(vectors, all_edges, 0, a), column3(rests, all_edges, 0, a),
-                 weights[a], mean);
-  sum = add_edge(sum, transform, inverse, normal, column3(vectors, all_edges, 0, b), column3(rests, all_edges, 0, b),
-                 weights[b], mean);
-  sum = add_edge(sum, transform, inverse, normal, column3(vectors, all_edges, 0, c), column3(rests, all_edges, 0, c),
-                 weights[c], mean);
-  store_column9(sum.right_hand_side, right_hand_sides, count, t);
-  terms[t] = sum.transform;
-  terms[count + t] = sum.normal;
-  terms[2 * count + t] = sum.transform_normal;
-  terms[3 * count + t] = sum.regularizer;
-}
-
-/// One item a pair of triangles. `rest`: unit direction of the edge, unit vector between the opposite vertices,
-/// similarity weight.
-kernel void compare_pairs(const int count, const int triangles, global const int* pairs, global const real* rest,
-                          global const real* transforms, global real* terms) {
-  const int p = get_global_id(0);
-  if (p >= count) return;
-  const Mat3 transform = column9(transforms, triangles, pairs[p]),
-             other = column9(transforms, triangles, pairs[count + p]);
-  terms[p] = disagreement(transform, other, column3(rest, count, 0, p));
-  terms[count + p] = rest[6 * count + p] * disagreement(transform, other, column3(rest, count, 3, p));
-}
-
-/// One item a triangle with sphericity. `corners`: its vertices. `rest`: axis, cosines, sines, three unit sides,
-/// sphericity weight, 1 over the sides' lengths.
-kernel void compare_corners(const int count, const int all_triangles, global const int* triangles,
-                            global const int* corners, global const real* rest, global const real* positions,
-                            global const real* residues, global const real* transforms, global real* terms) {
+/// Triangles. `corners`: their vertices, then their edges, e where the triangle tells of it, else -1 - e. `rest`: their
+/// edges' vectors. Sums: transform, normal, scale.
+kernel void fit_triangles(const int items, const int count, const scalar regularizer_weight,
+                          const scalar mean_edge_length, global const int* corners, global const host_scalar* positions,
+                          global const scalar* residues, global const scalar* inverses, global const scalar* normals,
+                          global const scalar* rest, global const scalar* weights, global scalar* next_weights,
+                          global host_scalar* right_hand_sides, global scalar* sums) {
   const int i = get_global_id(0);
-  if (i >= count) return;
-  const int a = corners[i], b = corners[count + i], c = corners[2 * count + i];
+  if (i >= items) return;
+  const lane_index own = own_elements(i, count);
+  const Mat3 inverse = gather9(inverses, own);
+  const Vec3 normal = gather3(normals, own);
+  const lane_index first = load_indices(corners, 6, 0, i);
+  const real mean = (real)mean_edge_length;
+  TriangleTerms sum = no_edges((real)regularizer_weight);
+  lane_index from = first;
+#pragma unroll
+  for (int k = 0; k < 3; ++k) {
+    const lane_index to = k == 2 ? first : load_indices(corners, 6, k + 1, i);
+    const lane_index edge = load_indices(corners, 6, 3 + k, i);
+    const Vec3 side = side_between(positions, residues, from, to);
+    const real weight = gather(weights, edge < 0 ? -1 - edge : edge);
+    sum = add_edge(sum, inverse, normal, side, load_tile3(rest, 9, 3 * k, i), weight, one_where(edge >= 0), mean);
+    store_own(length_weight(side, mean), edge, next_weights, elements_of(i, count));
+    from = to;
+  }
+  const real present = present_lanes(i, count);
+  store_sums(i, sums, present * sum.transform, present * sum.normal, present * sum.scale);
+  store_host_rows9(sum.right_hand_side, right_hand_sides, i, count);
+}
+
+/// `rest` of a triangle with sphericity: axis, cosines, sines, three unit sides, sphericity weight, 1 over the sides'
+/// lengths.
+static inline Corners load_turns(global const scalar* rest, int i) {
   Corners turns;
-  turns.axis = column3(rest, count, 0, i);
-  turns.cosines = column3(rest, count, 3, i);
-  turns.sines = column3(rest, count, 6, i);
-  const Sides directions = sides(column3(rest, count, 9, i), column3(rest, count, 12, i), column3(rest, count, 15, i));
-  const Vec3 shrink = column3(rest, count, 19, i);
-  const Sides placed = sides(scale3(shrink.x, side_between(positions, residues, a, b)),
-                             scale3(shrink.y, side_between(positions, residues, b, c)),
-                             scale3(shrink.z, side_between(positions, residues, c, a)));
-  const Sides mapped = map_sides(column9(transforms, all_triangles, triangles[i]), directions);
-  const real weight = rest[18 * count + i];
-  terms[i] = weight * sum_of_squares(corner_misses(turns, placed));
-  terms[count + i] = weight * sum_of_squares(corner_misses(turns, mapped));
+  turns.axis = load_tile3(rest, 22, 0, i);
+  turns.cosines = load_tile3(rest, 22, 3, i);
+  turns.sines = load_tile3(rest, 22, 6, i);
+  return turns;
 }
 
-/// One item a sum: `blocks` for each row of `elements` terms, of every blocks-th term from its own on.
-kernel void add_up(const int count, const int elements, const int blocks, global const real* terms, global real* sums) {
+static inline void store_sphericity(global const scalar* rest, Sides now, int i, int count,
+                                    global scalar* sums) {
+  const real weight = present_lanes(i, count) * load_tile(rest, 22, 18, i);
+  store_sums(i, sums, weight * sum_of_squares(corner_misses(load_turns(rest, i), now)), (real)0, (real)0);
+}
+
+/// Triangles with sphericity. Sum: transform_sphericity.
+kernel void map_corners(const int items, const int count, global const int* triangles,
+                        global const scalar* rest, global const host_scalar* transforms, global scalar* sums) {
+  const int i = get_global_id(0);
+  if (i >= items) return;
+  const Mat3 transform = gather_host9(transforms, load_indices(triangles, 1, 0, i));
+  const Sides unit =
+      sides(load_tile3(rest, 22, 9, i), load_tile3(rest, 22, 12, i), load_tile3(rest, 22, 15, i));
+  store_sphericity(rest, map_sides(transform, unit), i, count, sums);
+}
+
+/// Triangles with sphericity. `corners`: their vertices. Sum: sphericity.
+kernel void place_corners(const int items, const int count, global const int* corners,
+                          global const scalar* rest, global const host_scalar* positions, global const scalar* residues,
+                          global scalar* sums) {
+  const int i = get_global_id(0);
+  if (i >= items) return;
+  const lane_index a = load_indices(corners, 3, 0, i), b = load_indices(corners, 3, 1, i),
+                   c = load_indices(corners, 3, 2, i);
+  const Vec3 shrink = load_tile3(rest, 22, 19, i);
+  const Sides now = sides(scale3(shrink.x, side_between(positions, residues, a, b)),
+                          scale3(shrink.y, side_between(positions, residues, b, c)),
+                          scale3(shrink.z, side_between(positions, residues, c, a)));
+  store_sphericity(rest, now, i, count, sums);
+}
+
+/// Sums of GROUP items' sums. One item an element.
+kernel void add_up(const int count, const int terms, global const scalar* sums, global scalar* sums_of_sums) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const int row = i / blocks;
-  real sum = 0;
-  for (int k = i % blocks; k < elements; k += blocks) sum += terms[row * elements + k];
-  sums[i] = sum;
+  scalar4 sum = 0;
+  for (int k = GROUP * i; k < min(GROUP * (i + 1), terms); ++k) sum += vload4((size_t)k, sums);
+  vstore4(sum, (size_t)i, sums_of_sums);
 }

@@ -18,6 +18,7 @@ class Buffer {
   Buffer(const Queue& queue, std::size_t count, std::size_t bytes_each);
 
   std::size_t count() const { return count_; }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(count_); }
   const cl::Buffer& handle() const { return handle_; }
 
  protected:

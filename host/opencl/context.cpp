@@ -16,8 +16,12 @@ cl::Context make_context(const cl::Device& device) {
   return ask("OpenCL context", [&] { return cl::Context(device); });
 }
 
-/// Devices that compute in vectors are given them whole; two of eight doubles keep one busier than one does.
-int lanes_for(const cl::Device& device) { return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() > 1 ? 16 : 1; }
+bool computes_in_vectors(const cl::Device& device) { return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() > 1; }
+
+/// Such a device needs no copies of the host's doubles.
+bool computes_in_host_memory(const cl::Device& device) {
+  return device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() && device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
+}
 
 std::string options_for(const cl::Device& device) {
   std::string options = "-cl-std=CL1.2";
@@ -25,7 +29,7 @@ std::string options_for(const cl::Device& device) {
   if (abilities & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   // Oclgrind runs no inlined function that gives a struct (it stops at llvm.experimental.noalias.scope.decl).
   const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
-  if (platform.getInfo<CL_PLATFORM_NAME>() == "Oclgrind") options += " -cl-opt-disable";
+  if (platform.getInfo<CL_PLATFORM_NAME>() == "Oclgrind") options += " -cl-opt-disable -DALWAYS_INLINE=";
   return options;
 }
 
@@ -50,20 +54,28 @@ void compile_or_explain(cl::Program& program, const cl::Device& device, const st
 }  // namespace
 
 Context::Context(const cl::Device& device, Precision precision, ProgramCache cache)
+    : Context(device, precision, std::move(cache), computes_in_host_memory(device)) {}
+
+Context::Context(const cl::Device& device, Precision precision, ProgramCache cache, bool in_host_memory)
     : device_(device),
       precision_(precision),
-      lanes_(lanes_for(device)),
+      in_vectors_(computes_in_vectors(device)),
+      in_host_memory_(in_host_memory),
       handle_(make_context(device)),
       cache_(std::move(cache)),
       options_(options_for(device)),
       memory_(device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>()) {}
 
+int Context::lanes(const std::string& stem) const { return in_vectors_ ? lanes_of(stem) : 1; }
+
+Arithmetic Context::arithmetic(const std::string& stem) const { return {precision_, lanes(stem), in_host_memory_}; }
+
 cl::Program Context::program(const std::string& stem) {
-  return build(stem + ".cl", program_source(stem, {precision_, lanes_}));
+  return build(stem + ".cl", program_source(stem, arithmetic(stem)));
 }
 
 cl::Program Context::program(const std::string& name, const std::string& text) {
-  return build(name, program_source(name, text, {precision_, lanes_}));
+  return build(name, program_source(name, text, arithmetic(name)));
 }
 
 cl::Program Context::build(const std::string& name, const std::string& source) {

@@ -18,6 +18,7 @@
 #include <string>
 
 #include "cl.h"
+#include "kernel_source.h"
 #include "program_cache.h"
 #include "swage/backend.h"
 
@@ -28,10 +29,13 @@ class Context {
  public:
   /// Throws Unavailable.
   Context(const cl::Device& device, Precision precision, ProgramCache cache);
+  /// The same, with whether kernels see the host's arrays where they lie (host_rows.h).
+  Context(const cl::Device& device, Precision precision, ProgramCache cache, bool in_host_memory);
 
   Precision precision() const { return precision_; }
-  /// How many elements an item of a kernel in lanes has.
-  int lanes() const { return lanes_; }
+  /// How many elements an item of kernels/<stem>.cl has, where that is written in lanes.
+  int lanes(const std::string& stem) const;
+  bool in_host_memory() const { return in_host_memory_; }
   const cl::Device& device() const { return device_; }
   const cl::Context& handle() const { return handle_; }
 
@@ -50,12 +54,14 @@ class Context {
   Traffic traffic() const;
 
  private:
+  Arithmetic arithmetic(const std::string& stem) const;
   cl::Program build(const std::string& name, const std::string& source);
   cl::Program compile(const std::string& name, const std::string& source) const;
 
   cl::Device device_;
   Precision precision_;
-  int lanes_;
+  bool in_vectors_;
+  bool in_host_memory_;
   cl::Context handle_;
   ProgramCache cache_;
   std::string options_;

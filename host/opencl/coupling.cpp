@@ -107,12 +107,14 @@ class OpenClCoupling final : public CouplingStep {
       : OpenClCoupling(Queue(context), rest, table_of(rest), round_triangles(rest)) {}
 
   void apply(const Transforms& transforms, Transforms& product) override {
-    transforms_.upload(transforms, Layout::rows);
+    product.resize(triangles_, 9);
+    const Visit visit(queue_, {&transforms_, &products_});
+    transforms_.show(transforms);
+    products_.lend(product);
     couple_.launch(triangles_, normal_weight_, regularizer_weight_, neighbours_, rest_, transforms_, products_);
     couple_crowded_.launch(crowded_, crowded_triangles_, offsets_, crowd_, crowd_shares_, transforms_, products_);
-    couple_corners_.launch(round_, round_triangles_, corner_rest_, transforms_, products_);
-    product.resize(triangles_, 9);
-    products_.download(product, Layout::rows);
+    couple_corners_.launch(round_, round_, round_triangles_, corner_rest_, transforms_, products_);
+    products_.take_back(product);
   }
 
  private:
@@ -139,7 +141,7 @@ class OpenClCoupling final : public CouplingStep {
   int triangles_, crowded_, round_;
   Ints neighbours_, crowded_triangles_, offsets_, crowd_, round_triangles_;
   Reals rest_, crowd_shares_, corner_rest_;
-  Reals transforms_, products_;
+  HostRows transforms_, products_;
   Kernel couple_{queue_, "coupling", "couple"};
   Kernel couple_crowded_{queue_, "coupling", "couple_crowded"};
   Kernel couple_corners_{queue_, "coupling", "couple_corners"};

@@ -1,12 +1,8 @@
 #include "kernel.h"
 
+#include "kernel_source.h"
+
 namespace swage {
-namespace {
-
-/// PoCL vectorises over a group and is several times slower with groups that do not fit the global size.
-constexpr std::size_t kGroup = 64;
-
-}  // namespace
 
 Kernel::Kernel(const Queue& queue, const std::string& stem, const std::string& name)
     : Kernel(queue, queue.context->program(stem), name) {}
@@ -22,9 +18,19 @@ void Kernel::set(cl_uint place, double value) {
   }
 }
 
+void Kernel::set(cl_uint place, HostNumber number) {
+  if (queue_.context->in_host_memory()) {
+    kernel_.setArg(place, number.value);
+  } else {
+    set(place, number.value);
+  }
+}
+
 void Kernel::enqueue(std::size_t count) {
-  const std::size_t padded = (count + kGroup - 1) / kGroup * kGroup;
-  ask("kernel launch", [&] { return queue_.handle.enqueueNDRangeKernel(kernel_, {}, padded, kGroup); });
+  // Padded: some devices are several times slower with groups that do not fit the global size.
+  constexpr std::size_t kSize = kGroup;
+  const std::size_t padded = (count + kSize - 1) / kSize * kSize;
+  ask("kernel launch", [&] { return queue_.handle.enqueueNDRangeKernel(kernel_, {}, padded, kSize); });
 }
 
 }  // namespace swage

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "buffer.h"
+#include "host_rows.h"
 #include "words.h"
 
 namespace swage {
@@ -17,7 +18,8 @@ class Kernel {
   Kernel(const Queue& queue, const std::string& stem, const std::string& name);
   Kernel(const Queue& queue, const cl::Program& program, const std::string& name);
 
-  /// Arguments: Reals, Ints, int, and double for a kernel's `real`. Does not wait. No element: no launch.
+  /// Arguments: Reals, Ints, HostRows, int, double for a kernel's `scalar` and HostNumber for its `host_scalar`. Does
+  /// not wait. No element: no launch.
   template <typename... Arguments>
   void launch(Eigen::Index count, const Arguments&... arguments) {
     if (count == 0) return;
@@ -32,7 +34,9 @@ class Kernel {
  private:
   void set(cl_uint place, int value) { kernel_.setArg(place, value); }
   void set(cl_uint place, double value);
+  void set(cl_uint place, HostNumber value);
   void set(cl_uint place, const Buffer& buffer) { kernel_.setArg(place, buffer.handle()); }
+  void set(cl_uint place, const HostRows& rows) { kernel_.setArg(place, rows.handle()); }
   void enqueue(std::size_t count);
 
   Queue queue_;

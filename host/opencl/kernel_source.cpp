@@ -36,17 +36,28 @@ class Assembler {
 };
 
 std::string types(const Arithmetic& arithmetic) {
-  const bool single = arithmetic.precision == Precision::single;
-  const std::string scalar = single ? "float" : "double", width = std::to_string(arithmetic.lanes);
-  const std::string of_lanes = arithmetic.lanes == 1 ? "" : width;
-  // Comparing vectors gives integers of the scalar's size.
-  const std::string mask = arithmetic.lanes == 1 || single ? "int" : "long";
-  return (single ? "" : "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n") + ("typedef " + scalar + " scalar;\n") +
-         "typedef " + scalar + "4 scalar4;\n" + "typedef " + scalar + of_lanes + " lanes;\n" + "typedef " + mask +
-         of_lanes + " lane_mask;\n" + "#define LANES " + width + '\n';
+  const bool single = arithmetic.precision == Precision::single, alone = arithmetic.lanes == 1;
+  const std::string scalar = single ? "float" : "double", host = arithmetic.host_doubles ? "double" : scalar;
+  const std::string lanes = alone ? "" : std::to_string(arithmetic.lanes);
+  std::ostringstream text;
+  if (scalar == "double" || host == "double") text << "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n";
+  text << "typedef " << scalar << " scalar;\ntypedef " << scalar << "4 scalar4;\n"
+       << "typedef " << host << " host_scalar;\ntypedef " << host << "4 host_scalar4;\n"
+       << "#define to_scalar4 convert_" << scalar << "4\n#define to_host4 convert_" << host << "4\n"
+       << "#define HOST_IS_EXACT " << (host == "double") << '\n'
+       << "#define LANES " << arithmetic.lanes << "\n#define GROUP " << kGroup << '\n'
+       << "typedef " << scalar << lanes << " lanes;\ntypedef " << host << lanes << " host_lanes;\n"
+       << "#define to_lanes convert_" << scalar << lanes << "\n#define to_host_lanes convert_" << host << lanes << '\n'
+       << "typedef int" << lanes
+       << " lane_index;\n"
+       // Comparing vectors gives integers of the scalar's size.
+       << "typedef " << (alone || single ? "int" : "long") << lanes << " lane_mask;\n";
+  return text.str();
 }
 
 }  // namespace
+
+int lanes_of(std::string_view stem) { return stem == "transform" ? 8 : 16; }
 
 std::string program_source(const std::string& stem, const Arithmetic& arithmetic) {
   return program_source(stem + ".cl", kernel_file(stem + ".cl"), arithmetic);

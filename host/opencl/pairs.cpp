@@ -54,7 +54,7 @@ PairSums::PairSums(const Queue& queue, const PairsRest& rest) : PairSums(queue, 
 PairSums::PairSums(const Queue& queue, const PairsRest& rest, const PairScales& scales)
     : scales_(scales),
       count_(elements_of(rest)),
-      lanes_(queue.context->lanes()),
+      lanes_(queue.context->lanes("rotation")),
       stride_(whole_items(count_, lanes_)),
       normals_(rest.normals.rows() != 0),
       offsets_(queue, offsets_of(rest)),

@@ -1,11 +1,13 @@
 // The transform step on a device.
-#include <map>
+#include <optional>
 #include <utility>
-#include <vector>
 
+#include "edge_table.h"
 #include "kernel.h"
+#include "lane_items.h"
 #include "opencl_steps.h"
 #include "round_triangles.h"
+#include "sums.h"
 
 namespace swage {
 namespace {
@@ -13,205 +15,158 @@ namespace {
 using Eigen::Index;
 using Rest = TransformStep::Rest;
 
-/// The first two triangles beside each edge, or the one twice; and the few edges with more, with all theirs.
-struct Beside {
-  Eigen::Matrix<int, Eigen::Dynamic, 2> first_two;
-  Eigen::VectorXi crowded_edges, offsets, triangles;
-};
-
-Beside triangles_beside(const Rest& rest) {
-  Beside beside;
-  auto& first = beside.first_two;
-  first.setConstant(rest.edges.rows(), 2, -1);
-  std::map<int, std::vector<int>> more;
-  for (int t = 0; t < rest.triangles.rows(); ++t) {
-    for (const int e : rest.triangle_edges.row(t)) {
-      if (first(e, 0) < 0) {
-        first.row(e).setConstant(t);
-      } else if (first(e, 1) == first(e, 0)) {
-        first(e, 1) = t;
-      } else {
-        more[e].push_back(t);
-      }
-    }
-  }
-  std::vector<int> edges, offsets{0}, triangles;
-  for (const auto& [e, others] : more) {
-    edges.push_back(e);
-    triangles.insert(triangles.end(), {first(e, 0), first(e, 1)});
-    triangles.insert(triangles.end(), others.begin(), others.end());
-    offsets.push_back(static_cast<int>(triangles.size()));
-  }
-  auto vector = [](const std::vector<int>& list) {
-    return Eigen::Map<const Eigen::VectorXi>(list.data(), static_cast<Index>(list.size()));
-  };
-  beside.crowded_edges = vector(edges);
-  beside.offsets = vector(offsets);
-  beside.triangles = vector(triangles);
-  return beside;
-}
-
 Eigen::VectorXd initial_weights(const Rest& rest) {
   if (rest.length_weights.size() != 0) return rest.length_weights;
   const double squared = rest.mean_edge_length * rest.mean_edge_length;
   return (rest.edge_vectors.rowwise().squaredNorm() / squared).cwiseMax(1);  // Eq. 6
 }
 
-Eigen::VectorXd kept_lengths(const Rest& rest) {
-  return rest.target_lengths.size() != 0 ? rest.target_lengths : Eigen::VectorXd::Zero(rest.edges.rows());
-}
-
-/// As compare_pairs reads it.
-Eigen::Matrix<double, Eigen::Dynamic, 7> pair_rest(const Rest& rest) {
-  Eigen::Matrix<double, Eigen::Dynamic, 7> table(rest.pairs.rows(), 7);
-  for (Index p = 0; p < table.rows(); ++p) {
-    table.row(p) << rest.edge_vectors.row(rest.pair_edges[p]).normalized(), rest.pair_opposites.row(p),
-        rest.pair_similarities[p];
-  }
-  return table;
-}
-
-/// One term an element in each of its rows, and the rows' sums: by blocks on the device, the rest here.
-class Terms {
- public:
-  Terms(const Queue& queue, Index elements, int rows)
-      : elements_(static_cast<int>(elements)),
-        rows_(rows),
-        blocks_((elements_ + kBlock - 1) / kBlock),
-        values_(queue, elements * rows),
-        sums_(queue, blocks_ * rows),
-        add_up_(queue, "transform", "add_up") {}
-
-  /// To be written by element, a row after the other.
-  const Reals& values() const { return values_; }
-
-  void add_up() { add_up_.launch(blocks_ * rows_, elements_, blocks_, values_, sums_); }
-
-  /// Each row's sum of what was added up last, blocks in their order.
-  Eigen::VectorXd sums() const {
-    Eigen::MatrixXd blocks(blocks_, rows_);
-    sums_.download(blocks);
-    return blocks.colwise().sum().transpose();
-  }
-
- private:
-  static constexpr int kBlock = 64;  // Terms a sum in single precision bears without a loss that shows.
-  int elements_, rows_, blocks_;
-  Reals values_, sums_;
-  Kernel add_up_;
-};
-
 class OpenClTransform final : public TransformStep {
  public:
   OpenClTransform(const SharedContext& context, const Rest& rest)
-      : OpenClTransform(Queue(context), rest, triangles_beside(rest), round_triangles(rest)) {}
+      : OpenClTransform(Queue(context), rest, edge_table(rest), round_triangles(rest)) {}
 
   void reset() override { placed_ = false; }
 
   void fit_edges(const Transforms& transforms, EdgeQuadratics& quadratics) override {
-    transforms_.upload(transforms);
-    invert_.launch(triangles_, transforms_, inverses_, damped_.values());
-    damped_.add_up();
-    const double mean = constants_.mean_edge_length;
-    const double normal = constants_.normal_weight / mean, scale = constants_.scale_weight / mean;
-    fit_edges_.launch(edges_, triangles_, normal, scale, beside_, transforms_, inverses_, normals_, edge_vectors_,
-                      weights(), kept_, blocks_, sides_, targets_);
-    fit_crowded_edges_.launch(crowded_, edges_, triangles_, normal, scale, crowded_edges_, crowded_offsets_,
-                              crowded_triangles_, transforms_, inverses_, normals_, edge_vectors_, weights(), kept_,
-                              blocks_, sides_, targets_);
-    quadratics.blocks.resize(edges_, 6);
-    quadratics.right_hand_sides.resize(edges_, 3);
-    quadratics.target_lengths.resize(edges_);
-    blocks_.download(quadratics.blocks);
-    sides_.download(quadratics.right_hand_sides);
-    targets_.download(quadratics.target_lengths);
-    quadratics.singular = static_cast<int>(damped_.sums()[0]);
+    quadratics.blocks.resize(edges_.count, 6);
+    quadratics.right_hand_sides.resize(edges_.count, 3);
+    quadratics.target_lengths.resize(edges_.count);
+    const Visit visit(queue_, {&transforms_, &blocks_, &sides_, &targets_});
+    transforms_.show(transforms);
+    blocks_.lend(quadratics.blocks);
+    sides_.lend(quadratics.right_hand_sides);
+    targets_.lend(quadratics.target_lengths);
+    invert_.launch(triangles_.items(), triangles_.count, transforms_, inverses_, inverse_sums_.of_items());
+    fit_edges_.launch(edges_.items(), edges_.count, per_length(constants_.normal_weight),
+                      per_length(constants_.scale_weight), beside_, edge_rest_, weights(), normals_, transforms_,
+                      inverses_, blocks_, sides_, targets_, edge_sums_.of_items());
+    if (crowds_) launch_crowds();
+    map_corners_.launch(round_.items(), round_.count, round_triangles_, corner_rest_, transforms_,
+                        mapped_sums_.of_items());
+    for (Sums* sums : {&inverse_sums_, &edge_sums_, &mapped_sums_}) sums->add_up();
+    blocks_.take_back(quadratics.blocks);
+    sides_.take_back(quadratics.right_hand_sides);
+    targets_.take_back(quadratics.target_lengths);
+    quadratics.singular = static_cast<int>(inverse_sums_.total()[0]);
+    tell_energy_of_transforms();
   }
 
   Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) override {
-    upload(positions);
-    const double mean = constants_.mean_edge_length;
-    measure_edges_.launch(edges_, mean, ends_, positions_, residues_, edge_vectors_, vectors_, next_weights_,
-                          edge_terms_.values());
-    fit_triangles_.launch(triangles_, edges_, constants_.regularizer_weight, mean, triangle_edges_, transforms_,
-                          inverses_, normals_, vectors_, edge_vectors_, weights(), right_hand_sides_,
-                          triangle_terms_.values());
-    compare_pairs_.launch(pair_count_, triangles_, pairs_, pair_rest_, transforms_, pair_terms_.values());
-    compare_corners_.launch(round_, triangles_, round_triangles_, corners_, corner_rest_, positions_, residues_,
-                            transforms_, corner_terms_.values());
-    for (Terms* terms : {&edge_terms_, &triangle_terms_, &pair_terms_, &corner_terms_}) terms->add_up();
+    right_hand_sides.resize(triangles_.count, 9);
+    const Visit visit(queue_, {&positions_, &right_hand_sides_});
+    show(positions);
+    right_hand_sides_.lend(right_hand_sides);
+    fit_triangles_.launch(triangles_.items(), triangles_.count, constants_.regularizer_weight,
+                          constants_.mean_edge_length, corners_and_edges_, positions_, residues_, inverses_, normals_,
+                          edge_vectors_, weights(), next_weights_, right_hand_sides_, triangle_sums_.of_items());
+    place_corners_.launch(round_.items(), round_.count, corners_, corner_rest_, positions_, residues_,
+                          corner_sums_.of_items());
+    for (Sums* sums : {&triangle_sums_, &corner_sums_}) sums->add_up();
+    right_hand_sides_.take_back(right_hand_sides);
     std::swap(current_weights_, next_weights_);
     placed_ = true;
-    right_hand_sides.resize(triangles_, 9);
-    right_hand_sides_.download(right_hand_sides);
-    return energy();
+    return with_energy_of_positions();
   }
 
  private:
-  OpenClTransform(const Queue& queue, const Rest& rest, const Beside& beside, const RoundTriangles& round)
+  OpenClTransform(const Queue& queue, const Rest& rest, const EdgeTable& table, const RoundTriangles& round)
       : queue_(queue),
         constants_{rest.mean_edge_length, rest.normal_weight, rest.connect_weight, rest.scale_weight,
                    rest.regularizer_weight},
-        triangles_(static_cast<int>(rest.triangles.rows())),
-        edges_(static_cast<int>(rest.edges.rows())),
-        crowded_(static_cast<int>(beside.crowded_edges.size())),
-        pair_count_(static_cast<int>(rest.pairs.rows())),
-        round_(static_cast<int>(round.triangles.size())),
-        triangle_edges_(queue, rest.triangle_edges),
-        ends_(queue, rest.edges),
-        beside_(queue, beside.first_two),
-        crowded_edges_(queue, beside.crowded_edges),
-        crowded_offsets_(queue, beside.offsets),
-        crowded_triangles_(queue, beside.triangles),
-        pairs_(queue, rest.pairs),
-        round_triangles_(queue, round.triangles),
-        corners_(queue, round.corners),
-        edge_vectors_(queue, rest.edge_vectors),
-        normals_(queue, rest.normals),
-        kept_(queue, kept_lengths(rest)),
-        pair_rest_(queue, pair_rest(rest)),
-        corner_rest_(queue, round.rest),
-        initial_weights_(queue, initial_weights(rest)),
-        current_weights_(queue, edges_),
-        next_weights_(queue, edges_),
-        transforms_(queue, triangles_ * 9),
-        inverses_(queue, triangles_ * 9),
-        blocks_(queue, edges_ * 6),
-        sides_(queue, edges_ * 3),
-        targets_(queue, edges_),
+        triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
+        edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
+        round_{static_cast<int>(round.triangles.size()), queue.context->lanes("transform")},
+        beside_(queue, edges_.tiles(table.beside)),
+        corners_and_edges_(queue, triangles_.tiles(table.corners_and_edges)),
+        round_triangles_(queue, round_.tiles(round.triangles)),
+        corners_(queue, round_.tiles(round.corners)),
+        edge_rest_(queue, edges_.tiles(table.rest)),
+        normals_(queue, rest.normals, Layout::rows),
+        edge_vectors_(queue, triangles_.tiles(table.vectors_of_triangles)),
+        corner_rest_(queue, round_.tiles(round.rest)),
+        initial_weights_(queue, edges_.tiles(initial_weights(rest))),
+        current_weights_(queue, initial_weights_.size()),
+        next_weights_(queue, initial_weights_.size()),
+        inverses_(queue, Index{9} * triangles_.count),
+        residues_(queue, queue.context->in_host_memory() ? 0 : rest.vertices.size()),
+        transforms_(queue, Index{9} * triangles_.count),
+        blocks_(queue, Index{6} * edges_.count),
+        sides_(queue, Index{3} * edges_.count),
+        targets_(queue, edges_.count),
         positions_(queue, rest.vertices.size()),
-        residues_(queue, Positions::Zero(rest.vertices.rows(), 3)),
-        vectors_(queue, edges_ * 3),
-        right_hand_sides_(queue, triangles_ * 9),
-        damped_(queue, triangles_, 1),
-        edge_terms_(queue, edges_, 1),
-        triangle_terms_(queue, triangles_, 4),
-        pair_terms_(queue, pair_count_, 2),
-        corner_terms_(queue, round_, 2) {}
+        right_hand_sides_(queue, Index{9} * triangles_.count),
+        inverse_sums_(queue, triangles_.items()),
+        edge_sums_(queue, edges_.items()),
+        mapped_sums_(queue, round_.items()),
+        triangle_sums_(queue, triangles_.items()),
+        corner_sums_(queue, round_.items()) {
+    if (table.crowded.size() != 0 || table.pairs.rows() != 0) crowds_.emplace(queue, table);
+  }
+
+  /// Where more than two triangles meet.
+  struct Crowds {
+    Crowds(const Queue& queue, const EdgeTable& table)
+        : edges(queue, table.crowded),
+          offsets(queue, table.offsets),
+          triangles(queue, table.triangles),
+          pairs(queue, table.pairs, Layout::rows),
+          pair_rest(queue, table.pair_rest, Layout::rows),
+          edge_terms(queue, table.crowded.size()),
+          pair_terms(queue, table.pairs.size()),
+          fit_crowded_edges(queue, "crowded", "fit_crowded_edges"),
+          compare_pairs(queue, "crowded", "compare_pairs") {}
+
+    Ints edges, offsets, triangles, pairs;
+    Reals pair_rest, edge_terms, pair_terms;
+    Kernel fit_crowded_edges, compare_pairs;
+  };
+
+  void launch_crowds() {
+    Crowds& c = *crowds_;
+    c.fit_crowded_edges.launch(c.edges.size(), per_length(constants_.normal_weight),
+                               per_length(constants_.scale_weight), c.edges, c.offsets, c.triangles, edge_rest_,
+                               weights(), normals_, transforms_, inverses_, blocks_, sides_, targets_, c.edge_terms);
+    c.compare_pairs.launch(c.pairs.size() / 2, c.pairs, c.pair_rest, transforms_, c.pair_terms);
+  }
+
+  double per_length(double weight) const { return weight / constants_.mean_edge_length; }
 
   /// The weights that the positions now asked for are placed with.
   const Reals& weights() const { return placed_ ? current_weights_ : initial_weights_; }
 
-  void upload(const Positions& positions) {
-    positions_.upload(positions, Layout::rows);
-    if (queue_.context->precision() == Precision::twice) return;
+  void show(const Positions& positions) {
+    positions_.show(positions);
+    if (queue_.context->in_host_memory()) return;
     residues_.upload(positions - positions.cast<float>().cast<double>(), Layout::rows);
   }
 
-  Energy energy() const {
-    const Eigen::VectorXd triangles = triangle_terms_.sums(), pairs = pair_terms_.sums(),
-                          corners = corner_terms_.sums();
-    Energy sum;
-    sum.transform = triangles[0];
-    sum.normal = constants_.normal_weight * triangles[1];
-    sum.scale = constants_.scale_weight / constants_.mean_edge_length * edge_terms_.sums()[0];
-    sum.sphericity = corners[0];
-    sum.connect = constants_.connect_weight * pairs[0];
-    sum.similarity = pairs[1];
-    sum.transform_sphericity = corners[1];
-    sum.regularizer = constants_.regularizer_weight * triangles[3];
-    sum.transform_normal = triangles[2];
-    return sum;
+  /// The energy's terms that the transforms alone decide.
+  void tell_energy_of_transforms() {
+    Eigen::Vector3d edges = edge_sums_.total();
+    if (crowds_) {
+      Eigen::VectorXd terms(crowds_->edge_terms.size());
+      Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> pairs(crowds_->pairs.size() / 2, 2);
+      crowds_->edge_terms.download(terms);
+      crowds_->pair_terms.download(pairs, Layout::rows);
+      edges += Eigen::Vector3d(terms.sum(), pairs.col(0).sum(), pairs.col(1).sum());
+    }
+    energy_ = {};
+    energy_.regularizer = constants_.regularizer_weight * inverse_sums_.total()[1];
+    energy_.transform_normal = edges[0];
+    energy_.connect = constants_.connect_weight * edges[1];
+    energy_.similarity = edges[2];
+    energy_.transform_sphericity = mapped_sums_.total()[0];
+  }
+
+  Energy with_energy_of_positions() const {
+    const Eigen::Vector3d triangles = triangle_sums_.total();
+    Energy energy = energy_;
+    energy.transform = triangles[0];
+    energy.normal = constants_.normal_weight * triangles[1];
+    energy.scale = per_length(constants_.scale_weight) * triangles[2];
+    energy.sphericity = corner_sums_.total()[0];
+    return energy;
   }
 
   struct Constants {
@@ -220,26 +175,25 @@ class OpenClTransform final : public TransformStep {
 
   Queue queue_;
   Constants constants_;
-  int triangles_, edges_, crowded_, pair_count_, round_;
+  LaneItems triangles_, edges_, round_;
+  Energy energy_;
 
   // The rest shape.
-  Ints triangle_edges_, ends_, beside_, crowded_edges_, crowded_offsets_, crowded_triangles_;
-  Ints pairs_, round_triangles_, corners_;
-  Reals edge_vectors_, normals_, kept_, pair_rest_, corner_rest_;
+  Ints beside_, corners_and_edges_, round_triangles_, corners_;
+  Reals edge_rest_, normals_, edge_vectors_, corner_rest_;
+  std::optional<Crowds> crowds_;
 
   Reals initial_weights_, current_weights_, next_weights_;
   bool placed_ = false;  // Whether current_weights_ stand in for the initial.
-  Reals transforms_, inverses_, blocks_, sides_, targets_;
-  Reals positions_, residues_, vectors_, right_hand_sides_;
-  Terms damped_, edge_terms_, triangle_terms_, pair_terms_, corner_terms_;
+  Reals inverses_, residues_;
+  HostRows transforms_, blocks_, sides_, targets_, positions_, right_hand_sides_;
+  Sums inverse_sums_, edge_sums_, mapped_sums_, triangle_sums_, corner_sums_;
 
   Kernel invert_{queue_, "transform", "invert"};
   Kernel fit_edges_{queue_, "transform", "fit_edges"};
-  Kernel fit_crowded_edges_{queue_, "transform", "fit_crowded_edges"};
-  Kernel measure_edges_{queue_, "transform", "measure_edges"};
+  Kernel map_corners_{queue_, "transform", "map_corners"};
   Kernel fit_triangles_{queue_, "transform", "fit_triangles"};
-  Kernel compare_pairs_{queue_, "transform", "compare_pairs"};
-  Kernel compare_corners_{queue_, "transform", "compare_corners"};
+  Kernel place_corners_{queue_, "transform", "place_corners"};
 };
 
 }  // namespace

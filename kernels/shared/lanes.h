@@ -2,3 +2,9 @@
 // processor's vector unit at work, whatever its compiler makes of them.
 typedef lanes real;
 typedef lane_mask mask;
+
+#if LANES == 1
+static inline int any_lane(mask condition) { return condition; }
+#else
+static inline int any_lane(mask condition) { return any(condition); }
+#endif

@@ -38,9 +38,6 @@ typedef struct {
 static inline real positive(real a) { return (real)0.5 * (a + fabs(a)); }
 static inline real larger(real a, real b) { return a + positive(b - a); }
 
-static inline Vec3 choose3(mask first, Vec3 a, Vec3 b) {
-  return vec3(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
-}
 static inline Quaternion choose4(mask first, Quaternion a, Quaternion b) {
   return quaternion(first ? a.w : b.w, first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }

@@ -1,4 +1,5 @@
-// The transform step's maths (reshape paper, sections 3.3 and 4.2), in C99 ∩ C++, after symmetric.h.
+// The transform step's maths (reshape paper, sections 3.3 and 4.2), in C99 ∩ C++, after symmetric.h. No
+// branches: a lane of a vector unit each.
 
 /// Of a triangle's transform. `damped` is 1 where it is too near singular to invert, else 0.
 typedef struct {
@@ -6,66 +7,77 @@ typedef struct {
   real damped;
 } Inverse;
 
+static inline real larger_of(real a, real b) { return a > b ? a : b; }
+
 /// Of a matrix of norm 1: where the volume factor is below 1e-9, or below what rounding leaves of it, the inverse
 /// would be noise. Only in single precision does rounding ever decide.
-static inline int is_singular(Mat3 a, real determinant) {
-  const real epsilon = sizeof(real) == 4 ? (real)1e-7 : (real)2e-16;
+static inline mask is_singular(Mat3 a, real determinant) {
+  const real rounding = (real)(sizeof(scalar) == sizeof(float) ? 8e-7 : 16e-16);
   const real box = sqrt(dot3(a.x, a.x) * dot3(a.y, a.y) * dot3(a.z, a.z));
-  return fabs(determinant) <= fmax((real)1e-9, 8 * epsilon * box);
+  return fabs(determinant) <= larger_of((real)1e-9, rounding * box);
 }
 
-/// (a' a + d I)^-1 a' without forming a' a, whose rounding would drown a small d: by cofactors c and determinant it is
-/// (det c + d (|a|^2 a - a a' a) + d^2 a)' / (det^2 + d |c|^2 + d^2 |a|^2 + d^3). The inverse where d is 0.
-static inline Mat3 least_squares_inverse(Mat3 a, Mat3 c, real determinant, real d) {
+/// (a' a + d I)^-1 a', d = 1e-6, without forming a' a, whose rounding would drown a small d: by cofactors c and
+/// determinant it is (det c + d (|a|^2 a - a a' a) + d^2 a)' / (det^2 + d |c|^2 + d^2 |a|^2 + d^3).
+static inline Mat3 least_squares_inverse(Mat3 a, Mat3 c, real determinant) {
+  const real d = (real)1e-6;
   const Vec3 x = add3(cross3(a.y, c.z), cross3(c.y, a.z));
   const Vec3 y = add3(cross3(a.z, c.x), cross3(c.z, a.x));
   const Vec3 z = add3(cross3(a.x, c.y), cross3(c.x, a.y));
   const Mat3 first = scale_mat3(determinant, c), second = scale_mat3(d, mat3(x, y, z));
   const Mat3 sum = add_mat3(add_mat3(first, second), scale_mat3(d * d, a));
-  return scale_mat3(1 / (determinant * determinant + d * (inner3(c, c) + d * (inner3(a, a) + d))), transpose3(sum));
+  const real square = determinant * determinant + d * (inner3(c, c) + d * (inner3(a, a) + d));
+  return scale_mat3((real)1 / square, transpose3(sum));
 }
 
 /// Least squares with a damping of 1e-3 of the stretch where singular: bounded, and close to the inverse where there
 /// is one.
 static inline Inverse damped_inverse(Mat3 a) {
-  const real shrink = 1 / sqrt(fmax(inner3(a, a), (real)1e-36));  // A stretch below 1e-18 counts as none.
+  const real shrink = (real)1 / sqrt(larger_of(inner3(a, a), (real)1e-36));  // A stretch below 1e-18 counts as none.
   const Mat3 relative = scale_mat3(shrink, a), cofactors = cofactors3(relative);
   const real determinant = dot3(relative.x, cofactors.x);
+  const mask singular = is_singular(relative, determinant);
   Inverse inverse;
-  inverse.damped = is_singular(relative, determinant) ? (real)1 : (real)0;
-  const real damping = (real)1e-6 * inverse.damped;
-  inverse.matrix = scale_mat3(shrink, least_squares_inverse(relative, cofactors, determinant, damping));
+  inverse.damped = singular ? (real)1 : (real)0;
+  inverse.matrix = scale_mat3(shrink / (singular ? (real)1 : determinant), transpose3(cofactors));
+  if (any_lane(singular)) {
+    const Mat3 damped = scale_mat3(shrink, least_squares_inverse(relative, cofactors, determinant));
+    inverse.matrix = choose_mat3(singular, damped, inverse.matrix);
+  }
   return inverse;
 }
 
 /// Eq. 6.
 static inline real length_weight(Vec3 edge, real mean_edge_length) {
-  return fmax((real)1, dot3(edge, edge) / (mean_edge_length * mean_edge_length));
+  return larger_of((real)1, dot3(edge, edge) / (mean_edge_length * mean_edge_length));
 }
 
-/// What the triangles beside an edge bring to its quadratic.
+/// What the triangles beside an edge bring to its quadratic, and `turned`, eq. 26 times the edge's squared length.
 typedef struct {
   Symmetric grams, normals;
   Vec3 side;
-  real length, count;
+  real length, turned;
 } EdgeSum;
 
-static inline EdgeSum no_sides(void) {
-  EdgeSum sum;
-  sum.grams = sum.normals = diagonal3(0);
-  sum.side = vec3(0, 0, 0);
-  sum.length = sum.count = 0;
-  return sum;
+static inline EdgeSum edge_side(Mat3 transform, Mat3 inverse, Vec3 normal, Vec3 rest) {
+  const Vec3 mapped = apply3(transform, rest);
+  const real tilt = dot3(normal, mapped);
+  EdgeSum side;
+  side.grams = gram3(inverse);
+  side.normals = square3(normal);
+  side.side = apply3(transpose3(inverse), rest);
+  side.length = sqrt(dot3(mapped, mapped));
+  side.turned = tilt * tilt;
+  return side;
 }
 
-/// `present` is 1, or 0 for nothing.
-static inline EdgeSum add_side(EdgeSum sum, real present, Mat3 transform, Mat3 inverse, Vec3 normal, Vec3 rest) {
-  const Vec3 mapped = apply3(transform, rest);
-  sum.grams = add_symmetric(sum.grams, scale_symmetric(present, gram3(inverse)));
-  sum.normals = add_symmetric(sum.normals, scale_symmetric(present, square3(normal)));
-  sum.side = add3(sum.side, scale3(present, apply3(transpose3(inverse), rest)));
-  sum.length += present * sqrt(dot3(mapped, mapped));
-  sum.count += present;
+static inline EdgeSum add_sides(EdgeSum a, EdgeSum b) {
+  EdgeSum sum;
+  sum.grams = add_symmetric(a.grams, b.grams);
+  sum.normals = add_symmetric(a.normals, b.normals);
+  sum.side = add3(a.side, b.side);
+  sum.length = a.length + b.length;
+  sum.turned = a.turned + b.turned;
   return sum;
 }
 
@@ -76,15 +88,15 @@ typedef struct {
   real target;
 } EdgeQuadratic;
 
-/// Eqs. 20, 21 and 34, of at least one side. `kept` is the target length, or 0 for the transforms'; `scale` and
-/// `normal_weight` are divided by the mean edge length.
-static inline EdgeQuadratic edge_quadratic(EdgeSum sum, Vec3 rest, real weight, real kept, real normal_weight,
-                                           real scale) {
-  const real squared = dot3(rest, rest), length = sqrt(squared), along = weight / squared;
-  // A transform that flattens an edge must not make its terms infinite. As a root: PoCL does not vectorise over fmax.
-  const real mean = sum.length / sum.count, least = (real)1e-9 * length, fitted = sqrt(mean * mean + least * least);
-  const real target = kept > 0 ? kept : fitted;
-  const real across = normal_weight * weight * length / (target * target);
+/// Eqs. 20, 21 and 34. `mean` is of the sides' lengths, `share` what part of their sum counts (a half where the only
+/// side was summed twice); `kept` the target length, or 0 for the transforms'; `scale` and `normal_weight` are divided
+/// by the mean edge length.
+static inline EdgeQuadratic edge_quadratic(EdgeSum sum, real mean, real share, Vec3 rest, real weight, real kept,
+                                           real normal_weight, real scale) {
+  const real squared = dot3(rest, rest), length = sqrt(squared), along = share * weight / squared;
+  // A transform that flattens an edge must not make its terms infinite.
+  const real fitted = larger_of(mean, (real)1e-9 * length), target = kept > (real)0 ? kept : fitted;
+  const real across = share * normal_weight * weight * length / (target * target);
   EdgeQuadratic quadratic;
   quadratic.block = add_symmetric(add_symmetric(diagonal3(scale), scale_symmetric(along, sum.grams)),
                                   scale_symmetric(across, sum.normals));
@@ -93,35 +105,40 @@ static inline EdgeQuadratic edge_quadratic(EdgeSum sum, Vec3 rest, real weight, 
   return quadratic;
 }
 
+/// Eq. 28 without its weight.
+static inline real distance_from_identity(Mat3 transform) {
+  const Mat3 change = add_mat3(transform, scale_mat3((real)-1, full3(diagonal3((real)1))));
+  return inner3(change, change);
+}
+
 /// A triangle's right-hand side of the transform step and its terms of the energy, without their weights.
 typedef struct {
   Mat3 right_hand_side;
-  real transform, normal, transform_normal, regularizer;
+  real transform, normal, scale;
 } TriangleTerms;
 
-static inline TriangleTerms no_edges(Mat3 transform, real regularizer_weight) {
-  const Mat3 one = full3(diagonal3(1)), change = add_mat3(transform, scale_mat3(-1, one));
+static inline TriangleTerms no_edges(real regularizer_weight) {
   TriangleTerms terms;
-  terms.right_hand_side = scale_mat3(regularizer_weight, one);
-  terms.transform = terms.normal = terms.transform_normal = 0;
-  terms.regularizer = inner3(change, change);
+  terms.right_hand_side = full3(diagonal3(regularizer_weight));
+  terms.transform = terms.normal = terms.scale = (real)0;
   return terms;
 }
 
-/// Eqs. 20, 21 with the current length for the target's, 24 and 26. An edge of no length tilts nowhere.
-static inline TriangleTerms add_edge(TriangleTerms terms, Mat3 transform, Mat3 inverse, Vec3 normal, Vec3 edge,
-                                     Vec3 rest, real weight, real mean_edge_length) {
-  const real squared = dot3(rest, rest), tilt = dot3(normal, edge), turned = dot3(normal, apply3(transform, rest));
-  const Vec3 miss = sub3(apply3(inverse, edge), rest);
-  terms.right_hand_side = add_mat3(terms.right_hand_side, outer3(scale3(1 / mean_edge_length, edge), rest));
+/// Eqs. 20, 21 with the current length for the target's, 24, and 34 where `own` is 1, not 0. An edge of no length tilts
+/// nowhere.
+static inline TriangleTerms add_edge(TriangleTerms terms, Mat3 inverse, Vec3 normal, Vec3 edge, Vec3 rest, real weight,
+                                     real own, real mean_edge_length) {
+  const real squared = dot3(rest, rest), tilt = dot3(normal, edge), slope = tilt * tilt;
+  const Vec3 miss = sub3(apply3(inverse, edge), rest), change = sub3(edge, rest);
+  terms.right_hand_side = add_mat3(terms.right_hand_side, outer3(scale3((real)1 / mean_edge_length, edge), rest));
   terms.transform += weight * dot3(miss, miss) / squared;
-  terms.normal += weight * sqrt(squared) / mean_edge_length * (tilt * tilt / fmax(dot3(edge, edge), (real)1e-30));
-  terms.transform_normal += turned * turned / squared;
+  terms.normal += weight * sqrt(squared) / mean_edge_length * (slope / larger_of(dot3(edge, edge), (real)1e-30));
+  terms.scale += own * dot3(change, change);
   return terms;
 }
 
-/// Eq. 25 along any direction.
-static inline real disagreement(Mat3 transform, Mat3 other, Vec3 direction) {
-  const Vec3 gap = apply3(add_mat3(transform, scale_mat3(-1, other)), direction);
+/// Eq. 25 along any direction, by the difference of two transforms.
+static inline real disagreement(Mat3 difference, Vec3 direction) {
+  const Vec3 gap = apply3(difference, direction);
   return dot3(gap, gap);
 }

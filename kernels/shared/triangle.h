@@ -23,7 +23,7 @@ static inline Sides map_sides(Mat3 transform, Sides s) {
 
 /// Rodrigues.
 static inline Vec3 turned3(Vec3 axis, real cosine, real sine, Vec3 v) {
-  const Vec3 along = scale3((1 - cosine) * dot3(axis, v), axis);
+  const Vec3 along = scale3(((real)1 - cosine) * dot3(axis, v), axis);
   return add3(add3(scale3(cosine, v), scale3(sine, cross3(axis, v))), along);
 }
 

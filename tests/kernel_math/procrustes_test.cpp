@@ -21,8 +21,7 @@ namespace {
 // clang-format off
 namespace in_single {
 using real = float;
-using scalar = float;
-using mask = int;
+#include "lane.h"
 using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
@@ -31,8 +30,7 @@ using std::fabs, std::sqrt;
 }  // namespace in_single
 namespace in_double {
 using real = double;
-using scalar = double;
-using mask = int;
+#include "lane.h"
 using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
@@ -51,8 +49,6 @@ struct Tolerances {
 
 struct Single {
   using real = float;
-using scalar = float;
-using mask = int;
   static constexpr Tolerances kTolerances{1e-5, 2e-6};
   static constexpr Precision kPrecision = Precision::single;
   static auto closest(float xx, float xy, float xz, float yx, float yy, float yz, float zx, float zy, float zz) {
@@ -63,8 +59,6 @@ using mask = int;
 
 struct Twice {
   using real = double;
-using scalar = double;
-using mask = int;
   static constexpr Tolerances kTolerances{1e-14, 1e-10};
   static constexpr Precision kPrecision = Precision::twice;
   static auto closest(double xx, double xy, double xz, double yx, double yy, double yz, double zx, double zy,

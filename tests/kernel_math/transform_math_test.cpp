@@ -14,7 +14,8 @@ namespace {
 // clang-format off
 namespace in_single {
 using real = float;
-using std::fabs, std::fmax, std::sqrt;
+using std::fabs, std::sqrt;
+#include "lane.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
@@ -26,7 +27,8 @@ using std::fabs, std::fmax, std::sqrt;
 }  // namespace in_single
 namespace in_double {
 using real = double;
-using std::fabs, std::fmax, std::sqrt;
+using std::fabs, std::sqrt;
+#include "lane.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
@@ -49,7 +51,7 @@ struct Single {
   using Sides = in_single::Sides;
   using Rows = in_single::Rows;
   static constexpr double kTolerance = 2e-6;
-  static in_single::EdgeSum no_sides() { return in_single::no_sides(); }
+  static in_single::TriangleTerms no_edges(float regularizer) { return in_single::no_edges(regularizer); }
 };
 
 struct Twice {
@@ -61,7 +63,7 @@ struct Twice {
   using Sides = in_double::Sides;
   using Rows = in_double::Rows;
   static constexpr double kTolerance = 1e-14;
-  static in_double::EdgeSum no_sides() { return in_double::no_sides(); }
+  static in_double::TriangleTerms no_edges(double regularizer) { return in_double::no_edges(regularizer); }
 };
 
 template <typename Maths>
@@ -176,13 +178,13 @@ TYPED_TEST(TransformMath, EdgeQuadraticsAreTheEnergyOfTheEdge) {
   const double weight = 1.75, normal_weight = 2.5, scale = 0.125;
   for (int round = 0; round < kRounds; ++round) {
     const Vector3d rest = this->vector(), edge = this->vector(), other = this->vector();
-    auto sum = TypeParam::no_sides();
     Matrix3d transforms[2], inverses[2];
     Vector3d normals[2];
-    for (int k = 0; k < 2; ++k) {
+    auto side = [&](int k) {
       transforms[k] = this->near_identity(), inverses[k] = this->near_identity(), normals[k] = this->vector();
-      sum = add_side(sum, 1, this->to(transforms[k]), this->to(inverses[k]), this->to(normals[k]), this->to(rest));
-    }
+      return edge_side(this->to(transforms[k]), this->to(inverses[k]), this->to(normals[k]), this->to(rest));
+    };
+    const auto first = side(0), sum = add_sides(first, side(1));
     const double target = ((transforms[0] * rest).norm() + (transforms[1] * rest).norm()) / 2;
     auto energy = [&](const Vector3d& e) {
       double total = scale * (e - rest).squaredNorm();
@@ -192,36 +194,50 @@ TYPED_TEST(TransformMath, EdgeQuadraticsAreTheEnergyOfTheEdge) {
       }
       return total;
     };
-    const auto quadratic =
-        edge_quadratic(sum, this->to(rest), this->to(weight), 0, this->to(normal_weight), this->to(scale));
+    const auto quadratic = edge_quadratic(sum, sum.length / 2, 1, this->to(rest), this->to(weight), 0,
+                                          this->to(normal_weight), this->to(scale));
     auto value = [&](const Vector3d& e) {
       return e.dot(this->from(quadratic.block) * e) - 2 * this->from(quadratic.side).dot(e);
     };
     EXPECT_NEAR(quadratic.target, target, 10 * TypeParam::kTolerance * target);
     EXPECT_NEAR(value(edge) - value(other), energy(edge) - energy(other),
                 20 * TypeParam::kTolerance * (energy(edge) + energy(other)));
+    double turned = 0;
+    for (int k = 0; k < 2; ++k) turned += std::pow(normals[k].dot(transforms[k] * rest), 2);
+    const double size = (normals[0].squaredNorm() + normals[1].squaredNorm()) * rest.squaredNorm();
+    EXPECT_NEAR(sum.turned, turned, 100 * TypeParam::kTolerance * size);
   }
 }
 
-TYPED_TEST(TransformMath, AbsentSidesAndKeptLengths) {
+TYPED_TEST(TransformMath, AHalfOfTheSameSideTwiceIsTheSide) {
+  const auto rest = this->to(this->vector());
+  const auto side =
+      edge_side(this->to(this->near_identity()), this->to(this->near_identity()), this->to(this->vector()), rest);
+  const auto twice = add_sides(side, side);
+  const auto one = edge_quadratic(side, side.length, 1, rest, 2, 0, 3, 4);
+  const auto half = edge_quadratic(twice, twice.length / 2, this->to(0.5), rest, 2, 0, 3, 4);
+  EXPECT_EQ(this->from(half.block), this->from(one.block));
+  EXPECT_EQ(this->from(half.side), this->from(one.side));
+  EXPECT_EQ(half.target, one.target);
+}
+
+TYPED_TEST(TransformMath, KeptAndFlattenedLengths) {
   const auto rest = this->to(Vector3d(1, 2, 2));
-  const auto same = this->to(Matrix3d(2 * Matrix3d::Identity())), twice = this->to(Matrix3d(5 * Matrix3d::Identity()));
+  const auto same = this->to(Matrix3d(2 * Matrix3d::Identity())), none = this->to(Matrix3d(Matrix3d::Zero()));
   const auto normal = this->to(Vector3d(0, 0, 1));
-  const auto one = add_side(TypeParam::no_sides(), 1, same, same, normal, rest);
-  const auto none_more = add_side(one, 0, twice, twice, normal, rest);
-  EXPECT_EQ(edge_quadratic(none_more, rest, 1, 0, 1, 1).target, 6);
-  EXPECT_EQ(edge_quadratic(none_more, rest, 1, 4, 1, 1).target, 4);
-  EXPECT_EQ(this->from(none_more.grams), this->from(one.grams));
-  const auto flat = add_side(TypeParam::no_sides(), 1, this->to(Matrix3d(Matrix3d::Zero())), same, normal, rest);
-  EXPECT_NEAR(edge_quadratic(flat, rest, 1, 0, 1, 1).target, 3e-9, 1e-15);
+  const auto side = edge_side(same, same, normal, rest), flat = edge_side(none, same, normal, rest);
+  EXPECT_EQ(edge_quadratic(side, side.length, 1, rest, 1, 0, 1, 1).target, 6);
+  EXPECT_EQ(edge_quadratic(side, side.length, 1, rest, 1, 4, 1, 1).target, 4);
+  EXPECT_NEAR(edge_quadratic(flat, flat.length, 1, rest, 1, 0, 1, 1).target, 3e-9, 1e-15);
 }
 
 TYPED_TEST(TransformMath, TriangleTermsAreTheFormulas) {
   for (int round = 0; round < kRounds; ++round) {
-    const Matrix3d transform = this->near_identity(), inverse = this->near_identity();
+    const Matrix3d inverse = this->near_identity();
     const Vector3d normal = this->vector(), edge = this->vector(), rest = this->vector();
-    const auto terms = add_edge(no_edges(this->to(transform), this->to(0.25)), this->to(transform), this->to(inverse),
-                                this->to(normal), this->to(edge), this->to(rest), 2, 4);
+    const double own = round % 2;
+    const auto terms = add_edge(TypeParam::no_edges(this->to(0.25)), this->to(inverse), this->to(normal),
+                                this->to(edge), this->to(rest), 2, this->to(own), 4);
     const Matrix3d side = 0.25 * Matrix3d::Identity() + edge * rest.transpose() / 4;
     EXPECT_LT((this->from(terms.right_hand_side) - side).norm(), TypeParam::kTolerance * side.norm());
     // Differences lose what cancels: tolerances are of what is subtracted.
@@ -232,9 +248,19 @@ TYPED_TEST(TransformMath, TriangleTermsAreTheFormulas) {
     expect(terms.transform, 2 * (inverse * edge - rest).squaredNorm() / rest.squaredNorm(), 2 * grown);
     const double tilt = normal.squaredNorm() * rest.norm() / 2;
     expect(terms.normal, 2 * rest.norm() / 4 * std::pow(normal.dot(edge.normalized()), 2), tilt);
-    expect(terms.transform_normal, std::pow(normal.dot(transform * rest.normalized()), 2),
-           normal.squaredNorm() * transform.squaredNorm());
-    expect(terms.regularizer, (transform - Matrix3d::Identity()).squaredNorm(), 1);
+    expect(terms.scale, own * (edge - rest).squaredNorm(), std::pow(edge.norm() + rest.norm(), 2));
+  }
+}
+
+TYPED_TEST(TransformMath, DistancesOfTransformsAreTheFormulas) {
+  for (int round = 0; round < kRounds; ++round) {
+    const Matrix3d transform = this->near_identity(), other = this->near_identity();
+    const Vector3d direction = this->vector();
+    EXPECT_NEAR(distance_from_identity(this->to(transform)), (transform - Matrix3d::Identity()).squaredNorm(),
+                10 * TypeParam::kTolerance);
+    const auto difference = sub_mat3(this->to(transform), this->to(other));
+    EXPECT_NEAR(disagreement(difference, this->to(direction)), ((transform - other) * direction).squaredNorm(),
+                20 * TypeParam::kTolerance * direction.squaredNorm());
   }
 }
 

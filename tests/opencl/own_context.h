@@ -16,4 +16,10 @@ inline std::shared_ptr<Context> context_or_skip(Precision precision = Precision:
   return std::make_shared<Context>(choose_device("", precision).handle, precision, cache);
 }
 
+/// A device's memory as if it were not the host's, so that all is copied.
+inline std::shared_ptr<Context> context_apart_or_skip(Precision precision) {
+  if (!opencl_or_skip(precision)) return nullptr;
+  return std::make_shared<Context>(choose_device("", precision).handle, precision, ProgramCache(), false);
+}
+
 }  // namespace swage::test

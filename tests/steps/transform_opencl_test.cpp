@@ -18,7 +18,8 @@ namespace {
 // clang-format off
 namespace in_single {
 using real = float;
-using std::fabs, std::fmax, std::sqrt;
+#include "lane.h"
+using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
@@ -215,15 +216,16 @@ TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
   const auto scale = static_cast<float>(rest.scale_weight / rest.mean_edge_length);
   for (int e = 0; e < rest.edges.rows(); ++e) {
     const Eigen::RowVector3d vector = rest.edge_vectors.row(e);
-    in_single::EdgeSum sum = in_single::no_sides();
-    for (const int t : edges.triangles[e]) {
+    const auto side = [&](int t) {
       const in_single::Mat3 transform = single9(input.transforms.row(t));
-      sum = in_single::add_side(sum, 1, transform, in_single::damped_inverse(transform).matrix,
-                                single3(rest.normals.row(t)), single3(vector));
-    }
+      return in_single::edge_side(transform, in_single::damped_inverse(transform).matrix, single3(rest.normals.row(t)),
+                                  single3(vector));
+    };
+    const Lists::Range beside = edges.triangles[e];
+    const in_single::EdgeSum sum = in_single::add_sides(side(beside[0]), side(beside[1]));
     const double weight = std::max(1.0, vector.squaredNorm() / (rest.mean_edge_length * rest.mean_edge_length));
-    const in_single::EdgeQuadratic expected =
-        in_single::edge_quadratic(sum, single3(vector), static_cast<float>(weight), 0, normal_weight, scale);
+    const in_single::EdgeQuadratic expected = in_single::edge_quadratic(
+        sum, sum.length / 2, 1, single3(vector), static_cast<float>(weight), 0, normal_weight, scale);
     const in_single::Symmetric& b = expected.block;
     const Eigen::Matrix<float, 1, 6> block{b.xx, b.xy, b.xz, b.yy, b.yz, b.zz};
     EXPECT_EQ(quadratics.blocks.row(e), block.cast<double>()) << "edge " << e;

@@ -1,0 +1,116 @@
+#include "edge_table.h"
+
+#include <map>
+#include <vector>
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+
+Eigen::Map<const Eigen::VectorXi> vector(const std::vector<int>& list) {
+  return {list.data(), static_cast<Index>(list.size())};
+}
+
+class Maker {
+ public:
+  explicit Maker(const TransformStep::Rest& rest)
+      : rest_(rest), paired_(static_cast<size_t>(rest.edges.rows()), false) {
+    list_triangles();
+    start_rest();
+    place_pairs();
+    list_crowded();
+  }
+
+  EdgeTable table;
+
+ private:
+  void list_triangles() {
+    table.beside.setConstant(rest_.edges.rows(), 2, -1);
+    table.corners_and_edges.resize(rest_.triangles.rows(), 6);
+    table.corners_and_edges.leftCols<3>() = rest_.triangles;
+    table.vectors_of_triangles.resize(rest_.triangles.rows(), 9);
+    for (int t = 0; t < rest_.triangles.rows(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const int e = rest_.triangle_edges(t, k);
+        // Beside an edge that runs the other way round the triangle, its vector does so too.
+        const double along = rest_.edges(e, 0) == rest_.triangles(t, k) ? 1 : -1;
+        table.vectors_of_triangles.row(t).segment<3>(3 * k) = along * rest_.edge_vectors.row(e);
+        table.corners_and_edges(t, 3 + k) = place(t, e) ? e : -1 - e;
+      }
+    }
+  }
+
+  /// Whether t is the first at e.
+  bool place(int t, int e) {
+    auto beside = table.beside.row(e);
+    const bool first = beside[0] < 0;
+    if (first) {
+      beside.setConstant(t);
+    } else if (beside[1] == beside[0] && t != beside[0]) {
+      beside[1] = t;
+    } else {
+      more_[e].push_back(t);
+    }
+    return first;
+  }
+
+  void start_rest() {
+    table.rest.setZero(rest_.edges.rows(), 8);
+    table.rest.leftCols<3>() = rest_.edge_vectors;
+    if (rest_.target_lengths.size() != 0) table.rest.col(7) = rest_.target_lengths;
+  }
+
+  void place_pairs() {
+    std::vector<Index> left;
+    for (Index p = 0; p < rest_.pairs.rows(); ++p) {
+      const int e = rest_.pair_edges[p], t = rest_.pairs(p, 0), s = rest_.pairs(p, 1);
+      const auto beside = table.beside.row(e);
+      const bool its = t != s && (beside[0] == t || beside[0] == s) && (beside[1] == t || beside[1] == s);
+      if (!its || more_.count(e) > 0 || paired_[static_cast<size_t>(e)]) {
+        left.push_back(p);
+        continue;
+      }
+      paired_[static_cast<size_t>(e)] = true;
+      tell_pair(p, table.rest.row(e));
+    }
+    table.pairs = rest_.pairs(left, Eigen::all);
+    table.pair_rest.resize(table.pairs.rows(), 8);
+    for (Index i = 0; i < table.pairs.rows(); ++i) {
+      const Index p = left[static_cast<size_t>(i)];
+      table.pair_rest.row(i) = table.rest.row(rest_.pair_edges[p]);
+      tell_pair(p, table.pair_rest.row(i));
+    }
+  }
+
+  void tell_pair(Index pair, EdgeTable::Rest::RowXpr row) const {
+    row.segment<4>(3) << rest_.pair_opposites.row(pair), rest_.pair_similarities[pair];
+  }
+
+  void list_crowded() {
+    std::vector<int> edges, offsets{0}, triangles;
+    for (int e = 0; e < table.beside.rows(); ++e) {
+      auto beside = table.beside.row(e);
+      if (beside[0] == beside[1] ? more_.count(e) == 0 : paired_[static_cast<size_t>(e)]) continue;
+      edges.push_back(e);
+      triangles.push_back(beside[0]);
+      if (beside[1] != beside[0]) triangles.push_back(beside[1]);
+      triangles.insert(triangles.end(), more_[e].begin(), more_[e].end());
+      offsets.push_back(static_cast<int>(triangles.size()));
+      beside[1] = beside[0];
+    }
+    table.crowded = vector(edges);
+    table.offsets = vector(offsets);
+    table.triangles = vector(triangles);
+  }
+
+  const TransformStep::Rest& rest_;
+  std::map<int, std::vector<int>> more_;  // Triangles after the second at an edge.
+  std::vector<char> paired_;              // Whether `beside` tells of the edge's pair.
+};
+
+}  // namespace
+
+EdgeTable edge_table(const TransformStep::Rest& rest) { return Maker(rest).table; }
+
+}  // namespace swage

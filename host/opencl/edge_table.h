@@ -1,0 +1,30 @@
+// What lies beside each edge, as kernels/transform.cl and crowded.cl read it.
+#pragma once
+
+#include "swage/steps.h"
+
+namespace swage {
+
+struct EdgeTable {
+  using Rest = Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>;
+  using Ints2 = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+  /// #E × 2 triangles: the two that are a pair, or one twice.
+  Ints2 beside;
+  /// #E: vector; of the pair: unit vector between the opposite vertices, similarity weight; kept target length or 0.
+  Rest rest;
+
+  /// The few edges of which `beside` does not tell all, and their triangles at offsets[i] .. offsets[i + 1].
+  Eigen::VectorXi crowded, offsets, triangles;
+  /// The pairs of triangles that are not in `beside`, and their edge, as `rest` has it.
+  Ints2 pairs;
+  Rest pair_rest;
+
+  /// #T × 6: vertices, then edges, e where the triangle is the edge's first, else -1 - e; and those edges' vectors.
+  Eigen::Matrix<int, Eigen::Dynamic, 6, Eigen::RowMajor> corners_and_edges;
+  Transforms vectors_of_triangles;
+};
+
+EdgeTable edge_table(const TransformStep::Rest& rest);
+
+}  // namespace swage

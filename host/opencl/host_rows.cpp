@@ -1,0 +1,39 @@
+#include "host_rows.h"
+
+#include "words.h"
+
+namespace swage {
+
+HostRows::HostRows(const Queue& queue, Eigen::Index size)
+    : queue_(queue), copy_(queue, queue.context->in_host_memory() ? 0 : size) {}
+
+void HostRows::share(double* values, Eigen::Index size) {
+  bytes_ = static_cast<std::size_t>(size) * sizeof(double);
+  if (bytes_ == 0) return;
+  shared_ = ask("array of the host's", [&] {
+    return cl::Buffer(queue_.context->handle(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes_, values);
+  });
+}
+
+void HostRows::wait_for_shared() {
+  if (bytes_ == 0) return;
+  ask("array of the host's", [&] {
+    void* const seen = queue_.handle.enqueueMapBuffer(shared_, CL_TRUE, CL_MAP_READ, 0, bytes_);
+    queue_.handle.enqueueUnmapMemObject(shared_, seen);
+    return 0;
+  });
+}
+
+Visit::~Visit() {
+  try {
+    queue_.handle.finish();
+  } catch (const cl::Error&) {
+    // The queue is broken: the next call that uses it says so.
+  }
+  for (HostRows* const rows : seen_) {
+    rows->shared_ = cl::Buffer();
+    rows->bytes_ = 0;
+  }
+}
+
+}  // namespace swage

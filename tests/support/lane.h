@@ -1,0 +1,4 @@
+// A lane of the kernels in C++, to be included in a namespace where `real` is a type: hence no guard.
+using scalar = real;
+using mask = int;
+inline int any_lane(mask condition) { return condition; }
