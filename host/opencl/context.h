@@ -52,6 +52,7 @@ class Context {
  private:
   cl::Program build(const std::string& name, const std::string& source);
   cl::Program compile(const std::string& name, const std::string& source) const;
+  void keep(const std::string& key, const cl::Program& program) const;
 
   cl::Device device_;
   Precision precision_;
