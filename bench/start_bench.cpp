@@ -43,9 +43,8 @@ double run_child(benchmark::State& state) {
   static const std::string kCommand = "exec '" + std::filesystem::read_symlink("/proc/self/exe").string() + '\'';
   double build_seconds = 0;
   FILE* const child = popen(kCommand.c_str(), "r");
-  if (child == nullptr || std::fscanf(child, "%lf", &build_seconds) != 1 || pclose(child) != 0) {
-    state.SkipWithError("the child failed");
-  }
+  const bool told = child != nullptr && std::fscanf(child, "%lf", &build_seconds) == 1;
+  if (child == nullptr || pclose(child) != 0 || !told) state.SkipWithError("the child failed");
   return build_seconds;
 }
 
