@@ -24,7 +24,8 @@ bool computes_in_host_memory(const cl::Device& device) {
 }
 
 std::string options_for(const cl::Device& device) {
-  std::string options = "-cl-std=CL1.2";
+  // Without warnings: PoCL counts those of its own headers on stderr, at each build.
+  std::string options = "-cl-std=CL1.2 -w";
   const auto abilities = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
   if (abilities & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   // Oclgrind runs no inlined function that gives a struct (it stops at llvm.experimental.noalias.scope.decl).
@@ -116,9 +117,18 @@ cl::Program Context::compile(const std::string& name, const std::string& source)
     }
     cl::Program program(handle_, source);
     compile_or_explain(program, device_, name, options_);
-    if (cache_.keeps()) cache_.keep(key, program.getInfo<CL_PROGRAM_BINARIES>().front());
+    keep(key, program);
     return program;
   });
+}
+
+void Context::keep(const std::string& key, const cl::Program& program) const {
+  if (!cache_.keeps()) return;
+  try {
+    cache_.keep(key, program.getInfo<CL_PROGRAM_BINARIES>().front());
+  } catch (const cl::Error&) {
+    // A driver that gives no binary: the program is as good.
+  }
 }
 
 std::shared_ptr<const std::size_t> Context::claim(std::size_t bytes) {

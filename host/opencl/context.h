@@ -57,6 +57,7 @@ class Context {
   Arithmetic arithmetic(const std::string& stem) const;
   cl::Program build(const std::string& name, const std::string& source);
   cl::Program compile(const std::string& name, const std::string& source) const;
+  void keep(const std::string& key, const cl::Program& program) const;
 
   cl::Device device_;
   Precision precision_;

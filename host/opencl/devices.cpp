@@ -73,7 +73,8 @@ bool is_our_folder(const std::string& path) {
 
 /// For PoCL, before it starts; what the user set stands.
 void prepare_environment() {
-  // One binary for grids of all sizes: a kernel's first large launch compiles nothing again (0.4 s), at the same speed.
+  // One binary for grids of all sizes, which is the one that a kept program has: a kernel's first launch, and its first
+  // large one, compile nothing again (0.4 s), at the same speed.
   setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
   // Where it cannot write its cache it has no device, and says nothing.
   const char* const caches = getenv("XDG_CACHE_HOME");
@@ -132,7 +133,8 @@ const FoundDevice& choose_device(const std::string& wanted, Precision precision)
 }
 
 bool keeps_programs(const Device& device) {
-  return device.platform == "Portable Computing Language" || device.platform == "NVIDIA CUDA";
+  // PoCL does as well, but finds them only after it has read its headers again (30 ms a program); a binary needs none.
+  return device.platform == "NVIDIA CUDA";
 }
 
 std::vector<Device> opencl_devices() {

@@ -21,7 +21,7 @@ const std::vector<FoundDevice>& found_devices();
 /// As opencl_backend() chooses.
 const FoundDevice& choose_device(const std::string& wanted, Precision precision);
 
-/// Whether the device's platform keeps built programs on disk itself.
+/// Whether the device's platform keeps built programs on disk itself, and finds them quickly.
 bool keeps_programs(const Device& device);
 
 }  // namespace swage

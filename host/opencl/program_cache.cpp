@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
-#include <iterator>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace swage {
 namespace {
@@ -49,7 +49,9 @@ std::filesystem::path ProgramCache::path_of(const std::string& key) const { retu
 std::optional<ProgramCache::Bytes> ProgramCache::find(const std::string& key) const {
   if (!keeps()) return std::nullopt;
   std::ifstream file(path_of(key), std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  std::ostringstream content;
+  content << file.rdbuf();
+  const std::string all = std::move(content).str();
   const std::string start = head(key);
   if (!all.starts_with(start) || all.size() < start.size() + kDigits) return std::nullopt;
   const std::string_view program = std::string_view(all).substr(start.size() + kDigits);

@@ -1,4 +1,4 @@
-// Built programs kept on disk, for platforms that keep none themselves.
+// Built programs kept on disk, for platforms that keep none themselves or are slow to find them.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "opencl_device.h"
@@ -13,6 +14,7 @@ namespace swage::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class ColdStart : public testing::Test {
  protected:
@@ -29,12 +31,15 @@ class ColdStart : public testing::Test {
         "reshape", (folder_ / "box.obj").string(),       "--pin",     "0",     "--move", "55=0.1,0,0",
         "-o",      (folder_ / (name + ".obj")).string(), "--backend", "opencl"};
     std::vector<std::string> environment;
-    if (!cache.empty()) environment.push_back("POCL_CACHE_DIR=" + (folder_ / cache).string());
+    for (const char* of : {"XDG_CACHE_HOME=", "POCL_CACHE_DIR="}) {
+      if (!cache.empty()) environment.push_back(of + (folder_ / cache).string());
+    }
     return test::start(arguments, folder_ / (name + ".out"), folder_ / (name + ".err"), environment);
   }
 
   void expect_good(const std::string& name, const Running& run) const {
     EXPECT_EQ(run.wait(), 0) << read_text(folder_ / (name + ".err"));
+    EXPECT_THAT(read_text(folder_ / (name + ".err")), Not(HasSubstr("warning"))) << name;
     EXPECT_EQ(read_text(folder_ / (name + ".obj")), expected_) << name;
   }
 
@@ -61,6 +66,19 @@ TEST_F(ColdStart, SeveralProcessesBuildAtOnce) {
   for (int k = 0; k < 4; ++k) runs.push_back(start("run" + std::to_string(k), "cache"));
   for (int k = 0; k < 4; ++k) expect_good("run" + std::to_string(k), runs[static_cast<size_t>(k)]);
   expect_good("after", start("after", "cache"));
+}
+
+TEST_F(ColdStart, OurCacheOrTheDriversMayBeLost) {
+  if (IsSkipped()) return;
+  expect_good("cold", start("cold", "cache"));
+  expect_good("warm", start("warm", "cache"));
+  std::error_code none_of_ours;
+  std::filesystem::rename(folder_ / "cache" / "swage", folder_ / "ours", none_of_ours);
+  expect_good("drivers", start("drivers", "cache"));
+  std::filesystem::remove_all(folder_ / "cache");
+  std::filesystem::create_directory(folder_ / "cache");
+  std::filesystem::rename(folder_ / "ours", folder_ / "cache" / "swage", none_of_ours);
+  expect_good("ours", start("ours", "cache"));
 }
 
 TEST_F(ColdStart, ACacheFolderThatCannotBeIsWordsOrNoMatter) {

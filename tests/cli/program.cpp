@@ -27,12 +27,12 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
+/// Of the names that stand twice, the first counts.
 std::vector<std::string> with_ours(const std::vector<std::string>& extra) {
-  std::vector<std::string> all;
+  std::vector<std::string> all = extra;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     if (!std::string(*entry).starts_with("SWAGE_")) all.emplace_back(*entry);
   }
-  all.insert(all.end(), extra.begin(), extra.end());
   return all;
 }
 

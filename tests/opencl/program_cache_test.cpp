@@ -13,6 +13,7 @@
 
 #include "kernel.h"
 #include "own_context.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -124,6 +125,8 @@ void expect_runs(const ProgramCache& cache) {
   const Queue queue(context);
   Kernel twice(queue, context->program("twice.cl", kDouble), "twice");
   Reals values(queue, Eigen::VectorXd::Ones(64));
+  EXPECT_THROW(twice.launch(64, values, values), Unavailable);
+  EXPECT_THROW(twice.launch(64, 0.5), Unavailable);
   twice.launch(64, values);
   Eigen::VectorXd back(64);
   values.download(back);
@@ -137,6 +140,14 @@ TEST_F(ProgramCacheTest, AContextBuildsFromIt) {
   const auto written = std::filesystem::last_write_time(files()[0]);
   expect_runs(cache_);
   EXPECT_EQ(std::filesystem::last_write_time(files()[0]), written);
+}
+
+TEST_F(ProgramCacheTest, ContextsBuildFromItAtOnce) {
+  if (!test::opencl_or_skip(Precision::single)) return;
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k) threads.emplace_back([&] { expect_runs(cache_); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(files().size(), 1);
 }
 
 TEST_F(ProgramCacheTest, ADamagedProgramIsBuiltAgain) {
