@@ -255,7 +255,7 @@ void add_device(const std::string& name, const DeviceRun& run) {
 void add_closest_rotation_by_device() {
   add_device("closest_rotation", [](benchmark::State& state, Queue queue, int elements, double real_size) {
     const Reals matrices(queue, Transforms::Random(elements, 9)), rotations(queue, Index{9} * elements);
-    Kernel fit(queue, "rotation", "fit_rotations");
+    Kernel fit(queue, "rotation", "closest_rotations");
     const int lanes = queue.context->lanes("rotation");  // Divides all sizes.
     const Work work{[&] {
                       fit.launch(elements / lanes, elements, matrices, rotations);

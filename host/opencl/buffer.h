@@ -101,25 +101,13 @@ class Reals : public Buffer {
   /// As many as `values` has room for.
   template <typename Derived>
   void download(Eigen::PlainObjectBase<Derived>& values, Layout layout = Layout::columns) const {
-    download(values, layout, values.rows());
-  }
-
-  /// Of columns that begin `stride` apart.
-  template <typename Derived>
-  void download_strided(Eigen::PlainObjectBase<Derived>& values, Eigen::Index stride) const {
-    download(values, Layout::columns, stride);
+    if (values.size() == 0) return;
+    const View view = readable(static_cast<std::size_t>(values.size()));
+    see_reals<Derived::ColsAtCompileTime>(view.data(), values.rows(), values.cols(), layout,
+                                          [&](const auto& device) { convert(device, values.derived()); });
   }
 
  private:
-  template <typename Derived>
-  void download(Eigen::PlainObjectBase<Derived>& values, Layout layout, Eigen::Index rows) const {
-    if (values.size() == 0) return;
-    const View view = readable(static_cast<std::size_t>(rows * values.cols()));
-    see_reals<Derived::ColsAtCompileTime>(view.data(), rows, values.cols(), layout, [&](const auto& device) {
-      convert(device.topRows(values.rows()), values.derived());
-    });
-  }
-
   template <int kColumns, typename Use>
   void see_reals(void* data, Eigen::Index rows, Eigen::Index columns, Layout layout, const Use& use) const {
     if (precision() == Precision::single) {

@@ -36,8 +36,6 @@ Positions weighted_normals(const PairsRest& rest, const PairScales& scales) {
   return scale * rest.normal_weights.head(rest.normals.rows()).asDiagonal() * rest.normals;
 }
 
-int whole_items(Index count, int lanes) { return static_cast<int>((count + lanes - 1) / lanes * lanes); }
-
 }  // namespace
 
 PairScales::PairScales(const PairsRest& rest) : per_length(inverse_or_one(extent(rest.vertices))) {
@@ -49,35 +47,29 @@ Index elements_of(const PairsRest& rest) {
   return rest.offsets.empty() ? 0 : static_cast<Index>(rest.offsets.size()) - 1;
 }
 
-PairSums::PairSums(const Queue& queue, const PairsRest& rest) : PairSums(queue, rest, PairScales(rest)) {}
+Pairs::Pairs(const Queue& queue, const PairsRest& rest, const char* stem)
+    : Pairs(queue, rest, stem, PairScales(rest)) {}
 
-PairSums::PairSums(const Queue& queue, const PairsRest& rest, const PairScales& scales)
-    : scales_(scales),
-      count_(elements_of(rest)),
-      lanes_(queue.context->lanes("rotation")),
-      stride_(whole_items(count_, lanes_)),
-      normals_(rest.normals.rows() != 0),
+Pairs::Pairs(const Queue& queue, const PairsRest& rest, const char* stem, const PairScales& scales)
+    : queue_(queue),
+      per_length_(scales.per_length),
+      elements_{static_cast<int>(elements_of(rest)), queue.context->lanes(stem)},
       offsets_(queue, offsets_of(rest)),
       pairs_(queue, rest.pairs, Layout::rows),
       edges_(queue, weighted_edges(rest, scales), Layout::rows),
-      weighted_normals_(queue, weighted_normals(rest, scales)),
+      normals_(queue, weighted_normals(rest, scales), Layout::rows),
       positions_(queue, rest.vertices.size()),
       targets_(queue, rest.normals.size()),
-      edge_sums_(queue, Index{stride_} * 9),
-      all_sums_(queue, normals_ ? Index{stride_} * 9 : 0),
-      gather_pairs_(queue, "pairs", "gather_pairs"),
-      add_normals_(queue, "pairs", "add_normals") {}
+      result_(queue, Index{9} * elements_.count) {}
 
-void PairSums::gather(const Positions& positions, const Positions& targets) {
-  if (positions.rows() != 0) {
-    const Eigen::RowVector3d origin = positions.row(0);
-    positions_.upload((positions.rowwise() - origin) * scales_.per_length, Layout::rows);
+void Pairs::show(const Positions& positions, const Positions& targets) {
+  if (normals_.size() != 0) targets_.show(targets);
+  if (queue_.context->in_host_memory() || positions.rows() == 0) {
+    positions_.show(positions);
+    return;
   }
-  gather_pairs_.launch(count_, stride_, offsets_, pairs_, edges_, positions_, edge_sums_);
-  if (normals_) {
-    targets_.upload(targets);
-    add_normals_.launch(count_, stride_, edge_sums_, weighted_normals_, targets_, all_sums_);
-  }
+  // About a vertex: single precision has no room for a place far away.
+  positions_.show(Positions((positions.rowwise() - positions.row(0).eval()) * per_length_));
 }
 
 }  // namespace swage

@@ -1,13 +1,14 @@
-// What rotation and similarity share: the covariances of each element's pairs and normals.
+// What rotation and similarity share: each element's pairs and normals.
 #pragma once
 
 #include "kernel.h"
+#include "lane_items.h"
 #include "swage/steps.h"
 
 namespace swage {
 
-/// How the device sees a shape: about its first vertex, the rest shape's size as unit, the largest weight 1. So single
-/// precision bears any size and any place.
+/// How the device sees a shape: the rest shape's size as unit, the largest weight 1. So single precision bears any
+/// size.
 struct PairScales {
   explicit PairScales(const PairsRest& rest);
   double per_length, per_weight;
@@ -16,32 +17,38 @@ struct PairScales {
 /// The elements of `rest`.
 Eigen::Index elements_of(const PairsRest& rest);
 
-class PairSums {
+/// On the device, for kernels/<stem>.cl.
+class Pairs {
  public:
-  PairSums(const Queue& queue, const PairsRest& rest);
+  Pairs(const Queue& queue, const PairsRest& rest, const char* stem);
 
-  Eigen::Index count() const { return count_; }
-  /// How far apart columns begin: there is room for the elements of whole items of kernels in lanes.
-  int stride() const { return stride_; }
-  /// Of kernels in lanes.
-  Eigen::Index items() const { return stride_ / lanes_; }
-  /// stride × 9, in columns: sum_p w_p b_p a_pᵀ, and the same with the normals.
-  const Reals& edges() const { return edge_sums_; }
-  const Reals& all() const { return normals_ ? all_sums_ : edge_sums_; }
+  /// What `kernel` fits to the pairs now, a row an element; `of_element` are arguments before the positions.
+  template <typename... OfElement>
+  void fit(Kernel& kernel, const Positions& positions, const Positions& targets, Transforms& result,
+           const OfElement&... of_element) {
+    result.resize(elements_.count, 9);
+    const Visit visit(queue_, {&positions_, &targets_, &result_});
+    show(positions, targets);
+    result_.lend(result);
+    kernel.launch(elements_.items(), elements_.count, HostNumber{per_length_now()}, normals_.size() == 0 ? 0 : 1,
+                  offsets_, pairs_, edges_, normals_, of_element..., positions_, targets_, result_);
+    result_.take_back(result);
+  }
 
-  void gather(const Positions& positions, const Positions& targets);
+  const LaneItems& elements() const { return elements_; }
 
  private:
-  PairSums(const Queue& queue, const PairsRest& rest, const PairScales& scales);
+  Pairs(const Queue& queue, const PairsRest& rest, const char* stem, const PairScales& scales);
+  void show(const Positions& positions, const Positions& targets);
+  /// What is left to scale of the positions that kernels see.
+  double per_length_now() const { return queue_.context->in_host_memory() ? per_length_ : 1; }
 
-  PairScales scales_;
-  Eigen::Index count_;
-  int lanes_, stride_;
-  bool normals_;
+  Queue queue_;
+  double per_length_;
+  LaneItems elements_;
   Ints offsets_, pairs_;
-  Reals edges_, weighted_normals_;
-  Reals positions_, targets_, edge_sums_, all_sums_;
-  Kernel gather_pairs_, add_normals_;
+  Reals edges_, normals_;
+  HostRows positions_, targets_, result_;
 };
 
 }  // namespace swage

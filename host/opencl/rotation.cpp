@@ -8,20 +8,14 @@ namespace {
 class OpenClRotation final : public RotationStep {
  public:
   OpenClRotation(const Queue& queue, const PairsRest& rest)
-      : sums_(queue, rest),
-        rotations_(queue, Eigen::Index{sums_.stride()} * 9),
-        fit_(queue, "rotation", "fit_rotations") {}
+      : pairs_(queue, rest, "rotation"), fit_(queue, "rotation", "fit_rotations") {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& rotations) override {
-    sums_.gather(positions, targets);
-    fit_.launch(sums_.items(), sums_.stride(), sums_.all(), rotations_);
-    rotations.resize(sums_.count(), 9);
-    rotations_.download_strided(rotations, sums_.stride());
+    pairs_.fit(fit_, positions, targets, rotations);
   }
 
  private:
-  PairSums sums_;
-  Reals rotations_;
+  Pairs pairs_;
   Kernel fit_;
 };
 

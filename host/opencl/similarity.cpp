@@ -10,10 +10,10 @@ namespace {
 // Weights that cancel leave this part of their terms as rounding.
 constexpr double kNoSpread = 1e-12;
 
-/// 1 / sum_p w_p |a_p|², or 0 where the sum vanishes, and to fill up `size`.
-Eigen::VectorXd inverse_spreads(const PairsRest& rest, Eigen::Index size) {
+/// 1 / sum_p w_p |a_p|², or 0 where the sum vanishes.
+Eigen::VectorXd inverse_spreads(const PairsRest& rest) {
   const PairScales scales(rest);
-  Eigen::VectorXd inverses = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd inverses = Eigen::VectorXd::Zero(elements_of(rest));
   for (Eigen::Index i = 0; i < elements_of(rest); ++i) {
     const auto at = static_cast<size_t>(i);
     double spread = 0, terms = 0;
@@ -31,21 +31,17 @@ Eigen::VectorXd inverse_spreads(const PairsRest& rest, Eigen::Index size) {
 class OpenClSimilarity final : public SimilarityStep {
  public:
   OpenClSimilarity(const Queue& queue, const PairsRest& rest)
-      : sums_(queue, rest),
-        inverse_spreads_(queue, inverse_spreads(rest, sums_.stride())),
-        similarities_(queue, Eigen::Index{sums_.stride()} * 9),
+      : pairs_(queue, rest, "similarity"),
+        inverse_spreads_(queue, pairs_.elements().tiles(inverse_spreads(rest))),
         fit_(queue, "similarity", "fit_similarities") {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& similarities) override {
-    sums_.gather(positions, targets);
-    fit_.launch(sums_.items(), sums_.stride(), sums_.all(), sums_.edges(), inverse_spreads_, similarities_);
-    similarities.resize(sums_.count(), 9);
-    similarities_.download_strided(similarities, sums_.stride());
+    pairs_.fit(fit_, positions, targets, similarities, inverse_spreads_);
   }
 
  private:
-  PairSums sums_;
-  Reals inverse_spreads_, similarities_;
+  Pairs pairs_;
+  Reals inverse_spreads_;
   Kernel fit_;
 };
 

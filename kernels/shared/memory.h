@@ -34,17 +34,3 @@ static inline Vec3 tile3(global const real* a, int width, int k, int i) {
 static inline Vec3 column3(global const real* a, int n, int k, int i) {
   return vec3(a[n * k + i], a[n * (k + 1) + i], a[n * (k + 2) + i]);
 }
-
-static inline void store_column3(Vec3 v, global real* a, int n, int k, int i) {
-  a[n * k + i] = v.x;
-  a[n * (k + 1) + i] = v.y;
-  a[n * (k + 2) + i] = v.z;
-}
-static inline void store_column9(Mat3 m, global real* a, int n, int i) {
-  store_column3(m.x, a, n, 0, i);
-  store_column3(m.y, a, n, 3, i);
-  store_column3(m.z, a, n, 6, i);
-}
-static inline Mat3 column9(global const real* a, int n, int i) {
-  return mat3(column3(a, n, 0, i), column3(a, n, 3, i), column3(a, n, 6, i));
-}
