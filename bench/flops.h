@@ -8,6 +8,10 @@ struct Flops {
   int all() const { return sums + products + quotients + roots; }
 };
 
+/// Each of one element.
 Flops flops_of_closest_rotation();
+Flops flops_of_rotation(int pairs);
+Flops flops_of_similarity(int pairs);
+Flops flops_of_curvature(int neighbours);
 
 }  // namespace swage::bench
