@@ -55,11 +55,12 @@ Mat3 sum_of_pairs(int pairs) {
   return sum;
 }
 
-/// On a saddle.
-Vec3 offset_to(int neighbour) {
+/// On a saddle. In single precision with what rounding took.
+Vec3 offset_to(int neighbour, bool single) {
   const double angle = neighbour, x = std::cos(angle), y = std::sin(angle);
   const Vec3 from = vec3(0, 0, 0), to = vec3(x, y, x * y);
-  return add3(sub3(to, from), sub3(from, from));
+  const Vec3 rounded = sub3(to, from);
+  return single ? add3(rounded, sub3(from, from)) : rounded;
 }
 
 }  // namespace
@@ -77,16 +78,18 @@ Flops flops_of_similarity(int pairs) {
   });
 }
 
-Flops flops_of_curvature(int neighbours) {
+Flops flops_of_curvature(int neighbours, double scalar_size) {
+  const bool single = scalar_size == sizeof(float);
   return flops_of([=] {
     const Vec3 normal = vec3(0, 0, 1);
     const Plane plane = plane_normal_to(normal);
     Spread spread = no_spread();
-    for (int k = 0; k < neighbours; ++k) spread = spread_to(spread, plane, normal, offset_to(k));
+    for (int k = 0; k < neighbours; ++k) spread = spread_to(spread, plane, normal, offset_to(k, single));
     const Units units = units_of(spread, plane);
     Triangle triangle = no_equations();
-    for (int k = 0; k < neighbours; ++k) triangle = fold(triangle, terms_at(units, normal, offset_to(k)));
-    principal_curvatures(coefficients(orthogonal(rows_of(triangle))), units.per_u, units.per_w);
+    for (int k = 0; k < neighbours; ++k) triangle = fold(triangle, terms_at(units, normal, offset_to(k, single)));
+    const Rows rows = orthogonal(rows_of(triangle), single ? sizeof(float) : sizeof(double));
+    principal_curvatures(coefficients(rows), units.per_u, units.per_w);
   });
 }
 

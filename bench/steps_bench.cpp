@@ -240,7 +240,7 @@ void add_curvature() {
     const auto result = std::make_shared<Curvatures>();
     const double neighbours = static_cast<double>(rest.neighbours.size()) / elements;
     return Work{[=] { step->fit(*result); }, 2 * 4 + neighbours * 4 + (3 + 3 + 2) * real_size,
-                flops_of_curvature(static_cast<int>(neighbours))};
+                flops_of_curvature(static_cast<int>(neighbours), real_size)};
   });
 }
 

@@ -5,62 +5,51 @@
 #include "shared/lane_memory.h"
 #include "shared/quadric.h"
 
-/// a[width * at + k] of each lane's `at`.
-static inline real gather(global const scalar* a, global const int* at, int width) {
+/// a[at] of each lane. In line always, as difference: a call would cost a step through memory.
+__attribute__((always_inline)) static inline real gather(global const scalar* a, global const int* at) {
 #if LANES == 1
-  return a[width * at[0]];
+  return a[at[0]];
 #else
-  return (real)(a[width * at[0]], a[width * at[1]], a[width * at[2]], a[width * at[3]], a[width * at[4]],
-                a[width * at[5]], a[width * at[6]], a[width * at[7]], a[width * at[8]], a[width * at[9]],
-                a[width * at[10]], a[width * at[11]], a[width * at[12]], a[width * at[13]], a[width * at[14]],
-                a[width * at[15]]);
+  return (real)(a[at[0]], a[at[1]], a[at[2]], a[at[3]], a[at[4]], a[at[5]], a[at[6]], a[at[7]], a[at[8]], a[at[9]],
+                a[at[10]], a[at[11]], a[at[12]], a[at[13]], a[at[14]], a[at[15]]);
 #endif
 }
 
-static inline Vec3 gather3(global const scalar* a, global const int* at, int width) {
-  return vec3(gather(a, at, width), gather(a + 1, at, width), gather(a + 2, at, width));
+/// From vertices to others, along one axis. `places`: a row a vertex, its position and, in single precision, what
+/// rounding took from that: differences of near positions stay exact.
+__attribute__((always_inline)) static inline real difference(global const scalar* places, global const int* from,
+                                                             global const int* to) {
+  const real rounded = gather(places, to) - gather(places, from);
+  if (sizeof(scalar) != sizeof(float)) return rounded;
+  return rounded + (gather(places + 3, to) - gather(places + 3, from));
 }
 
-/// Of vertices: positions, and what rounding to single precision took from them, so that differences of near ones stay
-/// exact.
-typedef struct {
-  Vec3 position, rest;
-} Place;
-
-static inline Place place(global const scalar* places, global const int* vertices) {
-  Place p;
-  p.position = gather3(places, vertices, 8);
-  p.rest = gather3(places + 4, vertices, 8);
-  return p;
-}
-
-static inline Vec3 offset(Place from, Place to) {
-  return add3(sub3(to.position, from.position), sub3(to.rest, from.rest));
-}
-
-/// One item LANES vertices. `neighbours` in slots of LANES, an item's from slots[i] to slots[i + 1]: its vertices, then
-/// a neighbour of each; the vertex itself where there are no more.
-kernel void fit_curvatures(const int count, const int stride, global const int* slots, global const int* neighbours,
+/// One item LANES vertices. `slots`: LANES vertices each, by where their rows of `places` begin. An item's, from
+/// first_slots[i] to first_slots[i + 1], have its vertices, then a neighbour of each, the vertex itself where it has no
+/// more.
+kernel void fit_curvatures(const int count, const int stride, global const int* first_slots, global const int* slots,
                            global const scalar* places, global const scalar* normals, global scalar* curvatures) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const global int* vertices = neighbours + (long)LANES * slots[i];
-  const global int* first = vertices + LANES;
-  const global int* last = neighbours + (long)LANES * slots[i + 1];
-  const Place own = place(places, vertices);
+  global const int* own = slots + (long)LANES * first_slots[i];
+  global const int* end = slots + (long)LANES * first_slots[i + 1];
   const Vec3 normal = load_lanes3(normals, stride, 0, i);
   const Plane plane = plane_normal_to(normal);
   Spread spread = no_spread();
-  for (const global int* n = first; n < last; n += LANES) {
-    spread = spread_to(spread, plane, normal, offset(own, place(places, n)));
+  for (global const int* to = own + LANES; to < end; to += LANES) {
+    const real x = difference(places, own, to), y = difference(places + 1, own, to);
+    const real z = difference(places + 2, own, to);
+    spread = spread_to(spread, plane, normal, vec3(x, y, z));
   }
   const Units units = units_of(spread, plane);
   Triangle triangle = no_equations();
-  for (const global int* n = first; n < last; n += LANES) {
-    triangle = fold(triangle, terms_at(units, normal, offset(own, place(places, n))));
+  for (global const int* to = own + LANES; to < end; to += LANES) {
+    const real x = difference(places, own, to), y = difference(places + 1, own, to);
+    const real z = difference(places + 2, own, to);
+    triangle = fold(triangle, terms_at(units, normal, vec3(x, y, z)));
   }
-  const PrincipalCurvatures k =
-      principal_curvatures(coefficients(orthogonal(rows_of(triangle))), units.per_u, units.per_w);
+  const Rows rows = orthogonal(rows_of(triangle), sizeof(scalar));
+  const PrincipalCurvatures k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
   store_lanes(k.k1, curvatures, i);
   store_lanes(k.k2, curvatures + stride, i);
 }

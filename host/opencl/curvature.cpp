@@ -13,8 +13,8 @@ using Rest = CurvatureStep::Rest;
 
 // Fewer neighbours than coefficients tell nothing.
 constexpr int kFewestNeighbours = 5;
-// Vertices this near in order may change places, so that those of an item have as many neighbours: no list is then
-// filled up much, and what an item reads stays near.
+// Vertices of so many in a row may change places, so that those of an item have as many neighbours: little is filled
+// up, whatever the lists, and what an item reads stays near. A multiple of the lanes.
 constexpr Index kWindow = 4096;
 
 /// 1 / the shape's size, which the device has as unit. So single precision bears any size and any place.
@@ -24,14 +24,21 @@ double inverse_extent(const Positions& positions) {
   return extent > 0 ? 1 / extent : 1;
 }
 
-/// #V × 8: positions about the first vertex, and what rounding to single precision takes from them.
-Eigen::Matrix<double, Eigen::Dynamic, 8> places(const Positions& positions, double per_length, Precision precision) {
-  Eigen::Matrix<double, Eigen::Dynamic, 8> table = Eigen::Matrix<double, Eigen::Dynamic, 8>::Zero(positions.rows(), 8);
+/// Numbers a row of places.
+int width(Precision precision) { return precision == Precision::single ? 6 : 3; }
+
+/// Positions about the first vertex and, in single precision, what rounding takes from them.
+Eigen::MatrixXd places(const Positions& positions, double per_length, Precision precision) {
+  Eigen::MatrixXd table(positions.rows(), width(precision));
   if (positions.rows() == 0) return table;
   const Positions scaled = (positions.rowwise() - positions.row(0).eval()) * per_length;
   table.leftCols<3>() = scaled;
-  if (precision == Precision::single) table.middleCols<3>(4) = scaled - scaled.cast<float>().cast<double>();
+  if (precision == Precision::single) table.rightCols<3>() = scaled - scaled.cast<float>().cast<double>();
   return table;
+}
+
+Eigen::Map<const Eigen::VectorXi> vector(const std::vector<int>& list) {
+  return {list.data(), static_cast<Index>(list.size())};
 }
 
 int neighbours_of(const Rest& rest, int v) {
@@ -40,71 +47,78 @@ int neighbours_of(const Rest& rest, int v) {
   return count < kFewestNeighbours ? 0 : count;
 }
 
-/// The vertices as the device has them: `lanes` an item, and the first vertex in the lanes left over.
-struct Items {
-  Items(const Rest& rest, int lanes);
-
-  Eigen::VectorXi vertices, slots, neighbours;  ///< As the kernel says.
-};
-
-Items::Items(const Rest& rest, int lanes) {
-  const Index count = rest.positions.rows(), items = (count + lanes - 1) / lanes;
-  vertices.setZero(items * lanes);
-  std::iota(vertices.begin(), vertices.begin() + count, 0);
+/// The vertices lane by lane, those with the most neighbours first; the last one again in the lanes left over.
+Eigen::VectorXi in_lanes(const Rest& rest, int lanes) {
+  const Index count = rest.positions.rows();
+  Eigen::VectorXi vertices((count + lanes - 1) / lanes * lanes);
+  std::iota(vertices.begin(), vertices.end(), 0);
   for (Index w = 0; w < count; w += kWindow) {
     std::stable_sort(vertices.begin() + w, vertices.begin() + std::min(w + kWindow, count),
                      [&](int a, int b) { return neighbours_of(rest, a) > neighbours_of(rest, b); });
   }
-  slots.setZero(items + 1);
-  for (Index i = 0; i < items; ++i) {
-    int most = 0;
-    for (const int v : vertices.segment(i * lanes, lanes)) most = std::max(most, neighbours_of(rest, v));
-    slots[i + 1] = slots[i] + 1 + most;
+  if (count > 0) vertices.tail(vertices.size() - count).setConstant(vertices[count - 1]);
+  return vertices;
+}
+
+/// Where the slots of each item begin: its vertices, and as many neighbours as its first vertex has.
+Eigen::VectorXi first_slots(const Rest& rest, const Eigen::VectorXi& vertices, int lanes) {
+  Eigen::VectorXi first = Eigen::VectorXi::Zero(vertices.size() / lanes + 1);
+  for (Index i = 1; i < first.size(); ++i) first[i] = first[i - 1] + 1 + neighbours_of(rest, vertices[(i - 1) * lanes]);
+  return first;
+}
+
+using Slots = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A slot a row, filled up with the lane's vertex itself.
+Slots slots_of(const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first, int lanes) {
+  Slots slots(first.tail<1>()[0], lanes);
+  for (Index k = 0; k < vertices.size(); ++k) {
+    const int v = vertices[k], known = neighbours_of(rest, v);
+    const Index item = k / lanes;
+    auto lane = slots.col(k % lanes).segment(first[item], first[item + 1] - first[item]);
+    lane.setConstant(v);
+    lane.segment(1, known) = vector(rest.neighbours).segment(rest.offsets[static_cast<size_t>(v)], known);
   }
-  neighbours.resize(Index{slots[items]} * lanes);
-  for (Index i = 0; i < items * lanes; ++i) {
-    const int v = vertices[i], *first = rest.neighbours.data() + rest.offsets[static_cast<size_t>(v)];
-    const int known = i < count ? neighbours_of(rest, v) : 0;
-    Index at = Index{slots[i / lanes]} * lanes + i % lanes;
-    neighbours[at] = v;
-    for (int k = 0; k + 1 < slots[i / lanes + 1] - slots[i / lanes]; ++k)
-      neighbours[at += lanes] = k < known ? first[k] : v;
-  }
+  return slots;
 }
 
 class OpenClCurvature final : public CurvatureStep {
  public:
   OpenClCurvature(const Queue& queue, const Rest& rest)
-      : OpenClCurvature(queue, rest, {rest, queue.context->lanes()}) {}
+      : OpenClCurvature(queue, rest, in_lanes(rest, queue.context->lanes())) {}
 
   void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) override {
-    fit_.launch(stride_ / lanes_, stride_, slots_, neighbours_, places_, normals_, curvatures_);
-    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> of_lanes(stride_, 2);
-    curvatures_.download(of_lanes);
-    curvatures.resize(count_, 2);
-    for (Index i = 0; i < count_; ++i) curvatures.row(vertices_[i]) = per_length_ * of_lanes.row(i);
+    const Index count = curvatures_in_lanes_.rows();
+    fit_.launch(items_, stride_, first_slots_, slots_, places_, normals_, curvatures_);
+    curvatures_.download_strided(curvatures_in_lanes_, stride_);
+    curvatures.resize(count, 2);
+    curvatures(vertices_.head(count), Eigen::all) = per_length_ * curvatures_in_lanes_;
   }
 
  private:
-  OpenClCurvature(const Queue& queue, const Rest& rest, Items&& items)
-      : count_(rest.positions.rows()),
-        lanes_(queue.context->lanes()),
-        stride_(static_cast<int>(items.vertices.size())),
+  OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices)
+      : OpenClCurvature(queue, rest, vertices, first_slots(rest, vertices, queue.context->lanes())) {}
+
+  OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first)
+      : items_(static_cast<int>(first.size()) - 1),
+        stride_(static_cast<int>(vertices.size())),
         per_length_(inverse_extent(rest.positions)),
-        vertices_(std::move(items.vertices)),
-        slots_(queue, items.slots),
-        neighbours_(queue, items.neighbours),
+        vertices_(vertices),
+        first_slots_(queue, first),
+        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes()) * width(queue.context->precision()),
+               Layout::rows),
         places_(queue, places(rest.positions, per_length_, queue.context->precision()), Layout::rows),
-        normals_(queue, rest.normals(vertices_, Eigen::all)),
+        normals_(queue, rest.normals(vertices, Eigen::all)),
         curvatures_(queue, Index{2} * stride_),
+        curvatures_in_lanes_(rest.positions.rows(), 2),
         fit_(queue, "curvature", "fit_curvatures") {}
 
-  Index count_;
-  int lanes_, stride_;
+  int items_, stride_;
   double per_length_;
   Eigen::VectorXi vertices_;
-  Ints slots_, neighbours_;
+  Ints first_slots_, slots_;
   Reals places_, normals_, curvatures_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> curvatures_in_lanes_;
   Kernel fit_;
 };
 

@@ -144,6 +144,8 @@ typedef struct {
 } Turn;
 
 static inline Turn turn(real inverse_weight, real other_weight, real lead) {
+  // The other's weight first: an empty row's inverse times a lead that such a row left behind is beyond single
+  // precision.
   const real part = inverse_weight * (other_weight * lead);
   Turn t;
   t.lead = lead;
@@ -200,16 +202,15 @@ static inline Rows rows_of(Triangle r) {
   return rows;
 }
 
-/// Two rows turned by the smaller angle that makes them orthogonal.
+/// Two rows turned by the smaller angle that makes them orthogonal; hardly where every angle does.
 typedef struct {
   Terms p, q;
 } Pair;
 
 static inline Pair turn_rows(Terms p, Terms q) {
-  const real o = dot_terms(p, q), h = dot_terms(q, q) - dot_terms(p, p);
-  const real size = fabs(h) + sqrt(h * h + (real)4 * o * o) + (real)1e-35;
-  const real t = copysign((real)2, h) * o / size;
-  const real c = (real)1 / sqrt((real)1 + t * t), s = c * t;
+  const real o = (real)2 * dot_terms(p, q), h = dot_terms(q, q) - dot_terms(p, p);
+  const real d = fabs(h) + sqrt(h * h + o * o) + (real)1e-18, inverse = (real)1 / sqrt(d * d + o * o);
+  const real c = inverse * d, s = copysign(inverse, h) * o;
   Pair turned;
   turned.p = add_terms(scale_terms(c, p), scale_terms(-s, q));
   turned.q = add_terms(scale_terms(s, p), scale_terms(c, q));
@@ -232,9 +233,10 @@ static inline Rows sweep(Rows r) {
   return swept;
 }
 
-/// Orthogonal but for rounding.
-static inline Rows orthogonal(Rows r) {
-  for (int i = 0; i < 6; ++i) r = sweep(r);
+/// Orthogonal but for the rounding of scalars of so many bytes.
+static inline Rows orthogonal(Rows r, size_t scalar_size) {
+  const int sweeps = scalar_size == sizeof(float) ? 5 : 6;
+  for (int i = 0; i < sweeps; ++i) r = sweep(r);
   return r;
 }
 

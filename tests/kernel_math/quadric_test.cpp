@@ -194,7 +194,8 @@ TYPED_TEST(QuadricFit, SolvesByTheSingularValuesThatCount) {
       svd.setThreshold(1e-3);
       Vector5d expected = Vector5d::Zero();
       if (svd.rank() >= 4) expected = svd.solve(m.col(5));
-      const Vector5d found = numbers(coefficients(orthogonal(rows))).template head<5>();
+      const Vector5d found =
+          numbers(coefficients(orthogonal(rows, sizeof(typename TypeParam::real)))).template head<5>();
       ASSERT_TRUE(found.allFinite()) << kind.name;
       // How far rounding carries a coefficient.
       const double least = svd.rank() == 0 ? 1 : svd.singularValues()[svd.rank() - 1];
@@ -302,7 +303,8 @@ Eigen::RowVector2d curvatures_at(const CurvatureStep::Rest& rest, int v) {
   const auto units = units_of(spread, plane);
   typename As::Triangle triangle = As::no_equations();
   for (auto k = first; k < last; ++k) triangle = fold(triangle, terms_at(units, normal, offset(*k)));
-  const auto k = principal_curvatures(coefficients(orthogonal(rows_of(triangle))), units.per_u, units.per_w);
+  const auto rows = orthogonal(rows_of(triangle), sizeof(real));
+  const auto k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
   return {k.k1, k.k2};
 }
 
