@@ -18,6 +18,7 @@ class Counting {
   friend Counting operator-(Counting a) { return -a.value_; }
   friend Counting sqrt(Counting a) { return ++counted.roots, std::sqrt(a.value_); }
   friend Counting fabs(Counting a) { return std::fabs(a.value_); }
+  friend Counting copysign(Counting a, Counting b) { return std::copysign(a.value_, b.value_); }
   friend bool operator<(Counting a, Counting b) { return a.value_ < b.value_; }
   friend bool operator>(Counting a, Counting b) { return a.value_ > b.value_; }
   friend bool operator>=(Counting a, Counting b) { return a.value_ >= b.value_; }
@@ -36,6 +37,7 @@ using mask = bool;
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
 #include "shared/procrustes.h"
+#include "shared/quadric.h"
 // clang-format on
 
 template <typename Compute>
@@ -45,10 +47,50 @@ Flops flops_of(const Compute& compute) {
   return counted;
 }
 
+Mat3 sum_of_pairs(int pairs) {
+  Mat3 sum = mat3(vec3(1, 2, 3), vec3(4, 5, 7), vec3(8, 9, 11));
+  for (int p = 0; p < pairs; ++p) {
+    sum = add_mat3(sum, outer3(sub3(vec3(p, 1, 2), vec3(0, 0, 0)), vec3(3, p, 5)));
+  }
+  return sum;
+}
+
+/// On a saddle. In single precision with what rounding took.
+Vec3 offset_to(int neighbour, bool single) {
+  const double angle = neighbour, x = std::cos(angle), y = std::sin(angle);
+  const Vec3 from = vec3(0, 0, 0), to = vec3(x, y, x * y);
+  const Vec3 rounded = sub3(to, from);
+  return single ? add3(rounded, sub3(from, from)) : rounded;
+}
+
 }  // namespace
 
-Flops flops_of_closest_rotation() {
-  return flops_of([] { closest_rotation(mat3(vec3(1, 2, 3), vec3(4, 5, 7), vec3(8, 9, 11))); });
+Flops flops_of_closest_rotation() { return flops_of_rotation(0); }
+
+Flops flops_of_rotation(int pairs) {
+  return flops_of([=] { closest_rotation(sum_of_pairs(pairs)); });
+}
+
+Flops flops_of_similarity(int pairs) {
+  return flops_of([=] {
+    const Mat3 sum = sum_of_pairs(pairs), rotation = closest_rotation(sum);
+    scale_mat3(closest_scale(rotation, sum, 1), rotation);
+  });
+}
+
+Flops flops_of_curvature(int neighbours, double scalar_size) {
+  const bool single = scalar_size == sizeof(float);
+  return flops_of([=] {
+    const Vec3 normal = vec3(0, 0, 1);
+    const Plane plane = plane_normal_to(normal);
+    Spread spread = no_spread();
+    for (int k = 0; k < neighbours; ++k) spread = spread_to(spread, plane, normal, offset_to(k, single));
+    const Units units = units_of(spread, plane);
+    Triangle triangle = no_equations();
+    for (int k = 0; k < neighbours; ++k) triangle = fold(triangle, terms_at(units, normal, offset_to(k, single)));
+    const Rows rows = orthogonal(rows_of(triangle), single ? sizeof(float) : sizeof(double));
+    principal_curvatures(coefficients(rows), units.per_u, units.per_w);
+  });
 }
 
 }  // namespace swage::bench

@@ -8,6 +8,11 @@ struct Flops {
   int all() const { return sums + products + quotients + roots; }
 };
 
+/// Of one element.
 Flops flops_of_closest_rotation();
+Flops flops_of_rotation(int pairs);
+Flops flops_of_similarity(int pairs);
+/// In scalars of so many bytes.
+Flops flops_of_curvature(int neighbours, double scalar_size);
 
 }  // namespace swage::bench

@@ -1,7 +1,8 @@
 // The local steps: step × backend × precision × elements. `copy_share` is the memory that a step cannot but read and
 // write, per second, in parts of what a plain copy reaches in the same run. What crosses to the device and back is in
 // the steps' times, `up_per_element` and `down_per_element` are its bytes; upload and download also stand apart.
-// Building kernels is in none: `build_s`.
+// Building kernels is in none: `build_s`. `flop_share` is a device's arithmetic in parts of what it reaches in the same
+// run where nothing waits.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include "shapes.h"
 #include "swage/error.h"
 #ifdef SWAGE_BENCH_OPENCL
+#include "device_peak.h"
 #include "devices.h"
 #include "kernel.h"
 #endif
@@ -33,18 +35,35 @@ using Eigen::Index;
 struct Work {
   std::function<void()> run;
   double bytes_per_element;
+  Flops flops_per_element = {};
 };
+
+#ifdef SWAGE_BENCH_OPENCL
+Queue queue_on(Precision precision) {
+  const FoundDevice& device = choose_device("", precision);
+  return Queue(std::make_shared<Context>(device.handle, precision, ProgramCache()));
+}
+
+double peak_on_device(Precision precision) { return peak_flops(queue_on(precision)); }
+#else
+double peak_on_device(Precision) { return 0; }
+#endif
 
 struct Choice {
   std::string name;
   std::function<std::shared_ptr<Backend>()> backend;
   double real_size;  // Bytes.
+  std::function<double()> peak_flops;
 };
 
 std::vector<Choice> choices() {
-  return {{"cpu/double", [] { return cpu_backend(); }, 8},
-          {"opencl/single", [] { return opencl_backend("", Precision::single); }, 4},
-          {"opencl/double", [] { return opencl_backend("", Precision::twice); }, 8}};
+  auto on_device = [](const std::string& name, Precision precision, double real_size) {
+    return Choice{"opencl/" + name, [=] { return opencl_backend("", precision); }, real_size,
+                  [=] { return peak_on_device(precision); }};
+  };
+  return {{"cpu/double", [] { return cpu_backend(); }, 8, [] { return 0; }},
+          on_device("single", Precision::single, 4),
+          on_device("double", Precision::twice, 8)};
 }
 
 const std::vector<int> kSizes = {10'000, 100'000, 1'000'000};
@@ -82,6 +101,15 @@ void repeat(benchmark::State& state, const Work& work, int elements) {
   state.counters["copy_share"] = benchmark::Counter(bytes / copy_bandwidth(), benchmark::Counter::kIsRate);
 }
 
+void count_flops(benchmark::State& state, const Flops& per_element, int elements, double peak) {
+  if (per_element.all() == 0 || peak == 0) return;
+  const double flops = static_cast<double>(per_element.all()) * elements * static_cast<double>(state.iterations());
+  state.counters["flops_per_element"] = per_element.all();
+  state.counters["roots_and_quotients"] = per_element.roots + per_element.quotients;
+  state.counters["flops"] = benchmark::Counter(flops, benchmark::Counter::kIsRate);
+  state.counters["flop_share"] = benchmark::Counter(flops / peak, benchmark::Counter::kIsRate);
+}
+
 void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [run](benchmark::State& state) {
@@ -110,6 +138,7 @@ void add_step(const std::string& step, const Prepare& prepare) {
         state.counters["up_per_element"] = static_cast<double>(after.uploaded - before.uploaded) / results;
         state.counters["down_per_element"] = static_cast<double>(after.downloaded - before.downloaded) / results;
         state.counters["build_s"] = after.build_seconds;
+        count_flops(state, work.flops_per_element, elements, choice.peak_flops());
       });
     }
   }
@@ -124,10 +153,10 @@ Work pairs_work(const Backend& backend, int elements, double real_size, bool sim
   const double bytes = 4 + 3 * (2 * 4 + 3 * real_size) + 1.5 * real_size + 9 * real_size;
   if (similarity) {
     const std::shared_ptr<SimilarityStep> step = backend.similarity(rest);
-    return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes + real_size};
+    return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes + real_size, flops_of_similarity(3)};
   }
   const std::shared_ptr<RotationStep> step = backend.rotation(rest);
-  return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes};
+  return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes, flops_of_rotation(3)};
 }
 
 void add_rotation() {
@@ -210,7 +239,8 @@ void add_curvature() {
     const std::shared_ptr<CurvatureStep> step = backend.curvature(rest);
     const auto result = std::make_shared<Curvatures>();
     const double neighbours = static_cast<double>(rest.neighbours.size()) / elements;
-    return Work{[=] { step->fit(*result); }, 2 * 4 + neighbours * 4 + (3 + 3 + 2) * real_size};
+    return Work{[=] { step->fit(*result); }, 2 * 4 + neighbours * 4 + (3 + 3 + 2) * real_size,
+                flops_of_curvature(static_cast<int>(neighbours), real_size)};
   });
 }
 
@@ -233,11 +263,6 @@ void add_closest_rotation_by_cpu() {
 }
 
 #ifdef SWAGE_BENCH_OPENCL
-Queue queue_on(Precision precision) {
-  const FoundDevice& device = choose_device("", precision);
-  return Queue(std::make_shared<Context>(device.handle, precision, ProgramCache()));
-}
-
 using DeviceRun = std::function<void(benchmark::State& state, const Queue& queue, int elements, double real_size)>;
 
 void add_device(const std::string& name, const DeviceRun& run) {
@@ -263,12 +288,7 @@ void add_closest_rotation_by_device() {
                     },
                     2 * 9 * real_size};
     repeat(state, work, elements);
-    const Flops flops = flops_of_closest_rotation();
-    state.counters["flops_per_element"] = flops.all();
-    state.counters["roots_and_quotients"] = flops.roots + flops.quotients;
-    state.counters["flops"] =
-        benchmark::Counter(static_cast<double>(flops.all()) * elements * static_cast<double>(state.iterations()),
-                           benchmark::Counter::kIsRate);
+    count_flops(state, flops_of_closest_rotation(), elements, peak_flops(queue));
   });
 }
 

@@ -1,4 +1,7 @@
 // The curvature step on a device.
+#include <algorithm>
+#include <numeric>
+
 #include "kernel.h"
 #include "opencl_steps.h"
 
@@ -8,8 +11,11 @@ namespace {
 using Eigen::Index;
 using Rest = CurvatureStep::Rest;
 
-// Until the rows are orthogonal but for rounding.
-constexpr int kSweeps = 6;
+// Fewer neighbours than coefficients tell nothing.
+constexpr int kFewestNeighbours = 5;
+// Vertices of so many in a row may change places, so that those of an item have as many neighbours: little is filled
+// up, whatever the lists, and what an item reads stays near. A multiple of the lanes.
+constexpr Index kWindow = 4096;
 
 /// 1 / the shape's size, which the device has as unit. So single precision bears any size and any place.
 double inverse_extent(const Positions& positions) {
@@ -18,13 +24,15 @@ double inverse_extent(const Positions& positions) {
   return extent > 0 ? 1 / extent : 1;
 }
 
-/// #V × 6: positions about the first vertex, and what rounding to single precision takes from them.
-Eigen::Matrix<double, Eigen::Dynamic, 6> places(const Positions& positions, double per_length, Precision precision) {
-  Eigen::Matrix<double, Eigen::Dynamic, 6> table(positions.rows(), 6);
+/// Numbers a row of places.
+int width(Precision precision) { return precision == Precision::single ? 6 : 3; }
+
+/// Positions about the first vertex and, in single precision, what rounding takes from them.
+Eigen::MatrixXd places(const Positions& positions, double per_length, Precision precision) {
+  Eigen::MatrixXd table(positions.rows(), width(precision));
   if (positions.rows() == 0) return table;
   const Positions scaled = (positions.rowwise() - positions.row(0).eval()) * per_length;
   table.leftCols<3>() = scaled;
-  table.rightCols<3>().setZero();
   if (precision == Precision::single) table.rightCols<3>() = scaled - scaled.cast<float>().cast<double>();
   return table;
 }
@@ -33,37 +41,85 @@ Eigen::Map<const Eigen::VectorXi> vector(const std::vector<int>& list) {
   return {list.data(), static_cast<Index>(list.size())};
 }
 
+int neighbours_of(const Rest& rest, int v) {
+  const auto at = static_cast<size_t>(v);
+  const int count = rest.offsets[at + 1] - rest.offsets[at];
+  return count < kFewestNeighbours ? 0 : count;
+}
+
+/// The vertices lane by lane, those with the most neighbours first; the last one again in the lanes left over.
+Eigen::VectorXi in_lanes(const Rest& rest, int lanes) {
+  const Index count = rest.positions.rows();
+  Eigen::VectorXi vertices((count + lanes - 1) / lanes * lanes);
+  std::iota(vertices.begin(), vertices.end(), 0);
+  for (Index w = 0; w < count; w += kWindow) {
+    std::stable_sort(vertices.begin() + w, vertices.begin() + std::min(w + kWindow, count),
+                     [&](int a, int b) { return neighbours_of(rest, a) > neighbours_of(rest, b); });
+  }
+  if (count > 0) vertices.tail(vertices.size() - count).setConstant(vertices[count - 1]);
+  return vertices;
+}
+
+/// Where the slots of each item begin: its vertices, and as many neighbours as its first vertex has.
+Eigen::VectorXi first_slots(const Rest& rest, const Eigen::VectorXi& vertices, int lanes) {
+  Eigen::VectorXi first = Eigen::VectorXi::Zero(vertices.size() / lanes + 1);
+  for (Index i = 1; i < first.size(); ++i) first[i] = first[i - 1] + 1 + neighbours_of(rest, vertices[(i - 1) * lanes]);
+  return first;
+}
+
+using Slots = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A slot a row, filled up with the lane's vertex itself.
+Slots slots_of(const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first, int lanes) {
+  Slots slots(first.tail<1>()[0], lanes);
+  for (Index k = 0; k < vertices.size(); ++k) {
+    const int v = vertices[k], known = neighbours_of(rest, v);
+    const Index item = k / lanes;
+    auto lane = slots.col(k % lanes).segment(first[item], first[item + 1] - first[item]);
+    lane.setConstant(v);
+    lane.segment(1, known) = vector(rest.neighbours).segment(rest.offsets[static_cast<size_t>(v)], known);
+  }
+  return slots;
+}
+
 class OpenClCurvature final : public CurvatureStep {
  public:
   OpenClCurvature(const Queue& queue, const Rest& rest)
-      : count_(rest.positions.rows()),
-        per_length_(inverse_extent(rest.positions)),
-        offsets_(queue, vector(rest.offsets)),
-        neighbours_(queue, vector(rest.neighbours)),
-        places_(queue, places(rest.positions, per_length_, queue.context->precision()), Layout::rows),
-        normals_(queue, rest.normals, Layout::rows),
-        units_(queue, count_ * 2),
-        rows_(queue, count_ * 30),
-        curvatures_(queue, count_ * 2),
-        fold_neighbours_(queue, "curvature", "fold_neighbours"),
-        sweep_rows_(queue, "curvature", "sweep_rows"),
-        fit_curvatures_(queue, "curvature", "fit_curvatures") {}
+      : OpenClCurvature(queue, rest, in_lanes(rest, queue.context->lanes())) {}
 
   void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) override {
-    fold_neighbours_.launch(count_, offsets_, neighbours_, places_, normals_, units_, rows_);
-    for (int i = 0; i < kSweeps; ++i) sweep_rows_.launch(count_, rows_);
-    fit_curvatures_.launch(count_, units_, rows_, curvatures_);
-    curvatures.resize(count_, 2);
-    curvatures_.download(curvatures);
-    curvatures *= per_length_;
+    const Index count = curvatures_in_lanes_.rows();
+    fit_.launch(items_, stride_, first_slots_, slots_, places_, normals_, curvatures_);
+    curvatures_.download_strided(curvatures_in_lanes_, stride_);
+    curvatures.resize(count, 2);
+    curvatures(vertices_.head(count), Eigen::all) = per_length_ * curvatures_in_lanes_;
   }
 
  private:
-  Index count_;
+  OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices)
+      : OpenClCurvature(queue, rest, vertices, first_slots(rest, vertices, queue.context->lanes())) {}
+
+  OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first)
+      : items_(static_cast<int>(first.size()) - 1),
+        stride_(static_cast<int>(vertices.size())),
+        per_length_(inverse_extent(rest.positions)),
+        vertices_(vertices),
+        first_slots_(queue, first),
+        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes()) * width(queue.context->precision()),
+               Layout::rows),
+        places_(queue, places(rest.positions, per_length_, queue.context->precision()), Layout::rows),
+        normals_(queue, rest.normals(vertices, Eigen::all)),
+        curvatures_(queue, Index{2} * stride_),
+        curvatures_in_lanes_(rest.positions.rows(), 2),
+        fit_(queue, "curvature", "fit_curvatures") {}
+
+  int items_, stride_;
   double per_length_;
-  Ints offsets_, neighbours_;
-  Reals places_, normals_, units_, rows_, curvatures_;
-  Kernel fold_neighbours_, sweep_rows_, fit_curvatures_;
+  Eigen::VectorXi vertices_;
+  Ints first_slots_, slots_;
+  Reals places_, normals_, curvatures_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> curvatures_in_lanes_;
+  Kernel fit_;
 };
 
 }  // namespace

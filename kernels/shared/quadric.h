@@ -1,12 +1,14 @@
 // The quadric height z = a x² + b x y + c y² + d x + e y over a vertex's tangent plane that fits its neighbours best,
 // and its principal curvatures (Goldfeather and Interrante 2004). In C99 ∩ C++, after vec3.h. Two passes over the
-// neighbours, then neither loops nor branches:
+// neighbours, then no branches:
 //  1. How far they spread along the plane's principal axes: the units that the fit measures lengths in.
 //  2. The triangle R of the fit's least squares, a neighbour after the other, by rotations without square roots
 //     (Gentleman 1973). Normal equations would square a condition that single precision has no room for.
 //  3. The singular values of R: its rows are turned until they are orthogonal (Hestenes 1958), the right-hand side with
 //     them. Values below kSingular of the largest count as 0: the flattest of all quadrics that fit as well.
 //  4. The curvatures of that quadric's graph.
+// Both passes keep 1 / weight: so a neighbour at the vertex itself changes no bit of what either has, and lists of
+// neighbours can be filled up with it.
 
 /// Two directions that span the plane normal to a unit vector.
 typedef struct {
@@ -15,7 +17,7 @@ typedef struct {
 
 /// Both 0 where n is.
 static inline Plane plane_normal_to(Vec3 n) {
-  const int along_x = fabs(n.x) > fabs(n.y);
+  const mask along_x = fabs(n.x) > fabs(n.y);
   const Vec3 v = vec3(along_x ? -n.z : (real)0, along_x ? (real)0 : n.z, along_x ? n.x : -n.y);
   const real length = sqrt(dot3(v, v));
   Plane plane;
@@ -27,23 +29,22 @@ static inline Plane plane_normal_to(Vec3 n) {
 /// Of places (x, y) in a plane and heights over it: the triangle [√xx, √xx r; 0, √yy] of the places, and the sum of the
 /// squared heights.
 typedef struct {
-  real xx, r, yy, zz;
+  real inverse_xx, r, yy, zz;
 } Spread;
 
 static inline Spread no_spread(void) {
   Spread s;
-  s.xx = (real)1e-35;  // So that it is never 0.
+  s.inverse_xx = (real)1e35;  // xx is never 0.
   s.r = s.yy = s.zz = (real)0;
   return s;
 }
 
 static inline Spread spread_to(Spread s, Plane plane, Vec3 normal, Vec3 offset) {
   const real x = dot3(offset, plane.u), y = dot3(offset, plane.w), z = dot3(offset, normal);
-  const real xx = s.xx + x * x, rest = y - x * s.r;
-  const real inverse = (real)1 / xx, kept = s.xx * inverse;
+  const real part = s.inverse_xx * x, kept = (real)1 / ((real)1 + part * x), rest = y - x * s.r;
   Spread to;
-  to.xx = xx;
-  to.r = kept * s.r + x * inverse * y;
+  to.inverse_xx = s.inverse_xx * kept;
+  to.r = kept * (s.r + part * y);
   to.yy = s.yy + kept * rest * rest;
   to.zz = s.zz + z * z;
   return to;
@@ -57,7 +58,7 @@ typedef struct {
 } Units;
 
 static inline Units units_of(Spread s, Plane plane) {
-  const real xx = s.xx, xy = s.xx * s.r, yy = xy * s.r + s.yy;
+  const real xx = (real)1 / s.inverse_xx, xy = xx * s.r, yy = xy * s.r + s.yy;
   // As turn_rows does, with columns.
   const real h = yy - xx, size = fabs(h) + sqrt(h * h + (real)4 * xy * xy) + (real)1e-35;
   const real t = copysign((real)2, h) * xy / size;
@@ -66,7 +67,7 @@ static inline Units units_of(Spread s, Plane plane) {
   const real ux = c * a - sine * b, uy = sine * e, wx = sine * a + c * b, wy = c * e;
   const real uu = sqrt(ux * ux + uy * uy), ww = sqrt(wx * wx + wy * wy);
   const real least = (real)1e-4 * sqrt(uu * uu + ww * ww + s.zz);  // kLine of the reference.
-  const int any = uu > least && ww > least;
+  const mask any = uu > least && ww > least;
   Units units;
   units.per_u = any ? (real)1 / uu : (real)0;
   units.per_w = any ? (real)1 / ww : (real)0;
@@ -107,31 +108,17 @@ static inline Terms terms_at(Units units, Vec3 normal, Vec3 offset) {
   return terms(x * x, (real)1.4142135623730951 * x * y, y * y, x, y, z);
 }
 
-/// A row √weight terms.
+/// A row terms / √inverse_weight, its first term but for zeros 1.
 typedef struct {
-  real weight;
+  real inverse_weight;
   Terms terms;
 } Row;
 
-static inline Row row(real weight, Terms of) {
+static inline Row row(real inverse_weight, Terms of) {
   Row r;
-  r.weight = weight;
+  r.inverse_weight = inverse_weight;
   r.terms = of;
   return r;
-}
-
-/// A row of the triangle, its first term 1, turned with another so that the other's term `lead` there becomes 0.
-typedef struct {
-  Row row, other;
-} Turned;
-
-static inline Turned fold_row(Row into, Row other, real lead) {
-  const real taken = other.weight * lead, weight = into.weight + taken * lead, inverse = (real)1 / weight;
-  const real kept = into.weight * inverse;
-  Turned turned;
-  turned.row = row(weight, add_terms(scale_terms(kept, into.terms), scale_terms(taken * inverse, other.terms)));
-  turned.other = row(other.weight * kept, add_terms(other.terms, scale_terms(-lead, into.terms)));
-  return turned;
 }
 
 /// R and the right-hand side turned with it: rows that begin, with 1, one after the other.
@@ -141,25 +128,61 @@ typedef struct {
 
 /// But for weights that no rounding shows, so that none is 0.
 static inline Triangle no_equations(void) {
-  const Row none = row((real)1e-30, terms((real)0, (real)0, (real)0, (real)0, (real)0, (real)0));
+  const real inverse = (real)1e30, o = (real)0, l = (real)1;
   Triangle r;
-  r.xx = r.xy = r.yy = r.x = r.y = none;
+  r.xx = row(inverse, terms(l, o, o, o, o, o));
+  r.xy = row(inverse, terms(o, l, o, o, o, o));
+  r.yy = row(inverse, terms(o, o, l, o, o, o));
+  r.x = row(inverse, terms(o, o, o, l, o, o));
+  r.y = row(inverse, terms(o, o, o, o, l, o));
   return r;
 }
 
+/// How a row of the triangle is turned with another row so that the other's term `lead` below the row's 1 becomes 0.
+typedef struct {
+  real lead, kept, taken, inverse_weight, other_weight;
+} Turn;
+
+static inline Turn turn(real inverse_weight, real other_weight, real lead) {
+  // The other's weight first: an empty row's inverse times a lead that such a row left behind is beyond single
+  // precision.
+  const real part = inverse_weight * (other_weight * lead);
+  Turn t;
+  t.lead = lead;
+  t.kept = (real)1 / ((real)1 + part * lead);
+  t.taken = part * t.kept;
+  t.inverse_weight = inverse_weight * t.kept;
+  t.other_weight = other_weight * t.kept;
+  return t;
+}
+
+/// A term of the row, and of the other.
+static inline real to_row(Turn t, real row, real other) { return t.kept * row + t.taken * other; }
+static inline real to_other(Turn t, real row, real other) { return other - t.lead * row; }
+
 static inline Triangle fold(Triangle r, Terms equation) {
-  const Turned xx = fold_row(r.xx, row((real)1, equation), equation.xx);
-  const Turned xy = fold_row(r.xy, xx.other, xx.other.terms.xy);
-  const Turned yy = fold_row(r.yy, xy.other, xy.other.terms.yy);
-  const Turned x = fold_row(r.x, yy.other, yy.other.terms.x);
-  const Turned y = fold_row(r.y, x.other, x.other.terms.y);
-  Triangle folded;
-  folded.xx = xx.row;
-  folded.xy = xy.row;
-  folded.yy = yy.row;
-  folded.x = x.row;
-  folded.y = y.row;
-  return folded;
+  const real o = (real)0, l = (real)1;
+  const Terms a = r.xx.terms, b = r.xy.terms, c = r.yy.terms, d = r.x.terms, e = r.y.terms;
+  Triangle to;
+  Terms f = equation;
+  Turn t = turn(r.xx.inverse_weight, l, f.xx);
+  to.xx = row(t.inverse_weight, terms(l, to_row(t, a.xy, f.xy), to_row(t, a.yy, f.yy), to_row(t, a.x, f.x),
+                                      to_row(t, a.y, f.y), to_row(t, a.z, f.z)));
+  f = terms(o, to_other(t, a.xy, f.xy), to_other(t, a.yy, f.yy), to_other(t, a.x, f.x), to_other(t, a.y, f.y),
+            to_other(t, a.z, f.z));
+  t = turn(r.xy.inverse_weight, t.other_weight, f.xy);
+  to.xy = row(t.inverse_weight,
+              terms(o, l, to_row(t, b.yy, f.yy), to_row(t, b.x, f.x), to_row(t, b.y, f.y), to_row(t, b.z, f.z)));
+  f = terms(o, o, to_other(t, b.yy, f.yy), to_other(t, b.x, f.x), to_other(t, b.y, f.y), to_other(t, b.z, f.z));
+  t = turn(r.yy.inverse_weight, t.other_weight, f.yy);
+  to.yy = row(t.inverse_weight, terms(o, o, l, to_row(t, c.x, f.x), to_row(t, c.y, f.y), to_row(t, c.z, f.z)));
+  f = terms(o, o, o, to_other(t, c.x, f.x), to_other(t, c.y, f.y), to_other(t, c.z, f.z));
+  t = turn(r.x.inverse_weight, t.other_weight, f.x);
+  to.x = row(t.inverse_weight, terms(o, o, o, l, to_row(t, d.y, f.y), to_row(t, d.z, f.z)));
+  f = terms(o, o, o, o, to_other(t, d.y, f.y), to_other(t, d.z, f.z));
+  t = turn(r.y.inverse_weight, t.other_weight, f.y);
+  to.y = row(t.inverse_weight, terms(o, o, o, o, l, to_row(t, e.z, f.z)));
+  return to;
 }
 
 /// R's rows and what becomes of them.
@@ -167,30 +190,27 @@ typedef struct {
   Terms a, b, c, d, e;
 } Rows;
 
-static inline Terms root_row(real weight, Terms of) { return scale_terms(sqrt(weight), of); }
+static inline Terms weighted(Row r) { return scale_terms((real)1 / sqrt(r.inverse_weight), r.terms); }
 
 static inline Rows rows_of(Triangle r) {
-  const real o = (real)0, l = (real)1;
-  const Terms a = r.xx.terms, b = r.xy.terms, c = r.yy.terms, d = r.x.terms, e = r.y.terms;
   Rows rows;
-  rows.a = root_row(r.xx.weight, terms(l, a.xy, a.yy, a.x, a.y, a.z));
-  rows.b = root_row(r.xy.weight, terms(o, l, b.yy, b.x, b.y, b.z));
-  rows.c = root_row(r.yy.weight, terms(o, o, l, c.x, c.y, c.z));
-  rows.d = root_row(r.x.weight, terms(o, o, o, l, d.y, d.z));
-  rows.e = root_row(r.y.weight, terms(o, o, o, o, l, e.z));
+  rows.a = weighted(r.xx);
+  rows.b = weighted(r.xy);
+  rows.c = weighted(r.yy);
+  rows.d = weighted(r.x);
+  rows.e = weighted(r.y);
   return rows;
 }
 
-/// Two rows turned by the smaller angle that makes them orthogonal. No comparison: see procrustes.h.
+/// Two rows turned by the smaller angle that makes them orthogonal; hardly where every angle does.
 typedef struct {
   Terms p, q;
 } Pair;
 
 static inline Pair turn_rows(Terms p, Terms q) {
-  const real o = dot_terms(p, q), h = dot_terms(q, q) - dot_terms(p, p);
-  const real size = fabs(h) + sqrt(h * h + (real)4 * o * o) + (real)1e-35;
-  const real t = copysign((real)2, h) * o / size;
-  const real c = (real)1 / sqrt((real)1 + t * t), s = c * t;
+  const real o = (real)2 * dot_terms(p, q), h = dot_terms(q, q) - dot_terms(p, p);
+  const real d = fabs(h) + sqrt(h * h + o * o) + (real)1e-18, inverse = (real)1 / sqrt(d * d + o * o);
+  const real c = inverse * d, s = copysign(inverse, h) * o;
   Pair turned;
   turned.p = add_terms(scale_terms(c, p), scale_terms(-s, q));
   turned.q = add_terms(scale_terms(s, p), scale_terms(c, q));
@@ -213,13 +233,20 @@ static inline Rows sweep(Rows r) {
   return swept;
 }
 
-/// The larger one, but for rounding: by arithmetic, as procrustes.h says.
+/// Orthogonal but for the rounding of scalars of so many bytes.
+static inline Rows orthogonal(Rows r, size_t scalar_size) {
+  const int sweeps = scalar_size == sizeof(float) ? 5 : 6;
+  for (int i = 0; i < sweeps; ++i) r = sweep(r);
+  return r;
+}
+
+/// The larger one, but for rounding.
 static inline real larger_value(real a, real b) { return a + (real)0.5 * (b - a + fabs(b - a)); }
 
 /// What an orthogonal row tells of the coefficients: nothing where its square is below `least`.
 static inline Terms told(Terms r, real least) {
   const real square = dot_terms(r, r);
-  const int any = square > least;
+  const mask any = square > least;
   return scale_terms(any ? r.z / (any ? square : (real)1) : (real)0, r);
 }
 static inline real counts(Terms r, real least) { return dot_terms(r, r) > least ? (real)1 : (real)0; }

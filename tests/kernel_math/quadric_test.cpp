@@ -22,12 +22,14 @@ namespace {
 // clang-format off
 namespace in_single {
 using real = float;
+using mask = int;
 using std::copysign, std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/quadric.h"
 }  // namespace in_single
 namespace in_double {
 using real = double;
+using mask = int;
 using std::copysign, std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/quadric.h"
@@ -61,11 +63,9 @@ struct Twice {
   using Rows = in_double::Rows;
   static Spread no_spread() { return in_double::no_spread(); }
   static Triangle no_equations() { return in_double::no_equations(); }
-  static constexpr double kRounding = 2e-15, kUnswept = 1e-12;  // What six sweeps leave.
+  static constexpr double kRounding = 2e-15, kUnswept = 1e-12;  // What the sweeps leave.
   static constexpr Precision kPrecision = Precision::twice;
 };
-
-constexpr int kSweeps = 6;  // As the step does.
 
 /// Random numbers and matrices.
 class Source {
@@ -113,12 +113,6 @@ Eigen::Matrix<double, 5, 6> matrix(const Rows& r) {
   Eigen::Matrix<double, 5, 6> m;
   m << numbers(r.a), numbers(r.b), numbers(r.c), numbers(r.d), numbers(r.e);
   return m;
-}
-
-template <typename Rows>
-Rows swept(Rows rows) {
-  for (int i = 0; i < kSweeps; ++i) rows = sweep(rows);
-  return rows;
 }
 
 template <typename As>
@@ -200,7 +194,8 @@ TYPED_TEST(QuadricFit, SolvesByTheSingularValuesThatCount) {
       svd.setThreshold(1e-3);
       Vector5d expected = Vector5d::Zero();
       if (svd.rank() >= 4) expected = svd.solve(m.col(5));
-      const Vector5d found = numbers(coefficients(swept(rows))).template head<5>();
+      const Vector5d found =
+          numbers(coefficients(orthogonal(rows, sizeof(typename TypeParam::real)))).template head<5>();
       ASSERT_TRUE(found.allFinite()) << kind.name;
       // How far rounding carries a coefficient.
       const double least = svd.rank() == 0 ? 1 : svd.singularValues()[svd.rank() - 1];
@@ -308,7 +303,8 @@ Eigen::RowVector2d curvatures_at(const CurvatureStep::Rest& rest, int v) {
   const auto units = units_of(spread, plane);
   typename As::Triangle triangle = As::no_equations();
   for (auto k = first; k < last; ++k) triangle = fold(triangle, terms_at(units, normal, offset(*k)));
-  const auto k = principal_curvatures(coefficients(swept(rows_of(triangle))), units.per_u, units.per_w);
+  const auto rows = orthogonal(rows_of(triangle), sizeof(real));
+  const auto k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
   return {k.k1, k.k2};
 }
 

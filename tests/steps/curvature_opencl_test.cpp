@@ -311,6 +311,24 @@ TEST_P(CurvatureStepBy, TwoStepsOnTwoThreads) {
   other.join();
 }
 
+TEST_P(CurvatureStepBy, NoVertexSeesHowManyNeighboursOthersHave) {
+  if (!backend_) return;
+  Rest rest = two_rings(test::torus());
+  const int hub = 5, spokes = 3000, count = static_cast<int>(rest.positions.rows());
+  std::vector<int> far;
+  for (int k = 0; k < spokes; ++k) far.push_back(hub + 1 + k % (count - 1 - hub));
+  rest.neighbours.insert(rest.neighbours.begin() + rest.offsets[hub], far.begin(), far.end());
+  for (int v = hub + 1; v <= count; ++v) rest.offsets[static_cast<size_t>(v)] += spokes;
+  const Rest gaps = with_gaps(rest);
+  const Curvatures all = fitted(*backend_, rest), some = fitted(*backend_, gaps);
+  EXPECT_TRUE(all.allFinite());
+  for (Index v = 0; v < count; ++v) {
+    const auto at = static_cast<size_t>(v);
+    if (gaps.offsets[at] == gaps.offsets[at + 1]) continue;
+    EXPECT_EQ(some.row(v), all.row(v)) << "vertex " << v;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, CurvatureStepBy, testing::ValuesIn(kWho),
                          [](const auto& of) { return std::string(of.param.name); });
 
