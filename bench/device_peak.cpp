@@ -36,7 +36,7 @@ kernel void run_chains(const int count, const int rounds, const scalar factor, c
 }
 
 double flops_in_chains(const Queue& queue, int chains) {
-  const int lanes = queue.context->lanes(), items = (1 << 18) / lanes;
+  const int lanes = queue.context->lanes("chains"), items = (1 << 18) / lanes;
   const Reals sums(queue, Eigen::Index{items} * lanes);
   Kernel kernel(queue, queue.context->program("chains", text_of(chains)), "run_chains");
   double best = 0;

@@ -15,12 +15,14 @@ class Counting {
   friend Counting operator-(Counting a, Counting b) { return ++counted.sums, a.value_ - b.value_; }
   friend Counting operator*(Counting a, Counting b) { return ++counted.products, a.value_ * b.value_; }
   friend Counting operator/(Counting a, Counting b) { return ++counted.quotients, a.value_ / b.value_; }
+  Counting& operator+=(Counting b) { return *this = *this + b; }
   friend Counting operator-(Counting a) { return -a.value_; }
   friend Counting sqrt(Counting a) { return ++counted.roots, std::sqrt(a.value_); }
   friend Counting fabs(Counting a) { return std::fabs(a.value_); }
   friend Counting copysign(Counting a, Counting b) { return std::copysign(a.value_, b.value_); }
   friend bool operator<(Counting a, Counting b) { return a.value_ < b.value_; }
   friend bool operator>(Counting a, Counting b) { return a.value_ > b.value_; }
+  friend bool operator<=(Counting a, Counting b) { return a.value_ <= b.value_; }
   friend bool operator>=(Counting a, Counting b) { return a.value_ >= b.value_; }
   friend bool operator==(Counting a, Counting b) { return a.value_ == b.value_; }
 
@@ -31,13 +33,20 @@ class Counting {
 using real = Counting;
 using scalar = double;
 using mask = bool;
+int any_lane(bool condition) { return condition ? 1 : 0; }
 // Each needs those before it.
 // clang-format off
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
 #include "shared/procrustes.h"
+#include "shared/transform.h"
 #include "shared/quadric.h"
+namespace in_rows {
+#include "row.h"
+#include "shared/rows.h"
+#include "shared/coupling.h"
+}  // namespace in_rows
 // clang-format on
 
 template <typename Compute>
@@ -76,6 +85,38 @@ Flops flops_of_similarity(int pairs) {
     const Mat3 sum = sum_of_pairs(pairs), rotation = closest_rotation(sum);
     scale_mat3(closest_scale(rotation, sum, 1), rotation);
   });
+}
+
+Flops flops_of_transform() {
+  const Mat3 m = mat3(vec3(1, 0.2, 0.3), vec3(0.4, 1, 0.5), vec3(0.6, 0.7, 1));
+  const Vec3 edge = vec3(1, 2, 3), normal = vec3(0, 0, 1);
+  const Flops per_triangle = flops_of([=] {
+    distance_from_identity(damped_inverse(m).matrix);
+    TriangleTerms terms = no_edges(1);
+    for (int k = 0; k < 3; ++k) {
+      terms = add_edge(terms, m, normal, sub3(edge, normal), edge, 1, 1, 1);
+      length_weight(edge, 1);
+    }
+  });
+  const Flops per_edge = flops_of([=] {
+    const EdgeSum sum = add_sides(edge_side(m, m, normal, edge), edge_side(m, m, normal, edge));
+    edge_quadratic(sum, sum.length, 1, edge, 1, 0, 1, 1);
+    const Mat3 difference = sub_mat3(m, m);
+    disagreement(difference, edge) + disagreement(difference, normal);
+  });
+  auto add = [](int triangle, int edges) { return triangle + edges * 3 / 2; };
+  return {add(per_triangle.sums, per_edge.sums), add(per_triangle.products, per_edge.products),
+          add(per_triangle.quotients, per_edge.quotients), add(per_triangle.roots, per_edge.roots)};
+}
+
+Flops flops_of_coupling() {
+  const in_rows::Rows m{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}};
+  const Flops of_four = flops_of([=] {
+    in_rows::Rows product = in_rows::own_product(m, m, m, m.x, 1, 1);
+    for (int k = 0; k < 3; ++k) product = add_rows(product, in_rows::shared_product(m, m, m));
+  });
+  auto entries = [](int of_fours) { return of_fours * 3 / 4; };  // Of each row three count.
+  return {entries(of_four.sums), entries(of_four.products), 0, 0};
 }
 
 Flops flops_of_curvature(int neighbours, double scalar_size) {

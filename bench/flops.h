@@ -12,6 +12,9 @@ struct Flops {
 Flops flops_of_closest_rotation();
 Flops flops_of_rotation(int pairs);
 Flops flops_of_similarity(int pairs);
+/// Of a triangle, with its share of edges.
+Flops flops_of_transform();
+Flops flops_of_coupling();
 /// In scalars of so many bytes.
 Flops flops_of_curvature(int neighbours, double scalar_size);
 

@@ -10,7 +10,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench_main.h"
@@ -18,7 +17,8 @@
 #include "flops.h"
 #include "plan.h"
 #include "procrustes.h"
-#include "shapes.h"
+#include "step_inputs.h"
+#include "swage/curvature.h"
 #include "swage/error.h"
 #ifdef SWAGE_BENCH_OPENCL
 #include "device_peak.h"
@@ -67,12 +67,6 @@ std::vector<Choice> choices() {
 }
 
 const std::vector<int> kSizes = {10'000, 100'000, 1'000'000};
-
-/// A torus of as many triangles.
-Mesh mesh_of(int triangles) {
-  const int around = triangles == 10'000 ? 100 : triangles == 100'000 ? 250 : 1000;
-  return test::torus(1, 0.4, around, triangles / 2 / around);
-}
 
 /// Bytes per second, read and written, of the best of a few copies by all threads.
 double copy_bandwidth() {
@@ -144,13 +138,15 @@ void add_step(const std::string& step, const Prepare& prepare) {
   }
 }
 
-/// An element a triangle: three pairs, the positions of half a vertex, and a matrix.
+constexpr double kIndex = 4, kHost = 8;  // Bytes of an index and of a number of the host's.
+
+/// An element a triangle: its place in the list, three pairs with their edges, half a vertex, and a matrix.
 Work pairs_work(const Backend& backend, int elements, double real_size, bool similarity) {
   const Mesh mesh = mesh_of(elements);
   const PairsRest rest = test::triangle_pairs(mesh);
   const Positions moved = (2 * mesh.positions).array().sin();
   const auto result = std::make_shared<Transforms>();
-  const double bytes = 4 + 3 * (2 * 4 + 3 * real_size) + 1.5 * real_size + 9 * real_size;
+  const double bytes = 7 * kIndex + 9 * real_size + (1.5 + 9) * kHost;
   if (similarity) {
     const std::shared_ptr<SimilarityStep> step = backend.similarity(rest);
     return {[=] { step->fit(moved, Positions(0, 3), *result); }, bytes + real_size, flops_of_similarity(3)};
@@ -171,13 +167,8 @@ void add_similarity() {
   });
 }
 
-TransformStep::Rest reshape_rest(int triangles) {
-  const Mesh mesh = mesh_of(triangles);
-  return rest_shape({}, mesh, edges_of(mesh.triangles), Curvatures::Zero(mesh.triangles.rows(), 2));
-}
-
-/// A pass of reshaping. An element a triangle: its transform, inverse, right-hand side, half a vertex, and one and a
-/// half edges and pairs with their rest and the edges' quadratics.
+/// A pass of reshaping. An element a triangle: its transform, read twice, its inverse, written and read twice, normal,
+/// edges' vectors, right-hand side and half a vertex; one and a half edges with their rest, weights and quadratics.
 void add_transform() {
   add_step("transform", [](const Backend& backend, int elements, double real_size) {
     const TransformStep::Rest rest = reshape_rest(elements);
@@ -190,7 +181,9 @@ void add_transform() {
                   step->fit_edges(transforms, *quadratics);
                   step->fit_transforms(moved, *sides);
                 },
-                91.5 * real_size + 12 * 4};
+                (2 * 9 + 9 + 1.5 + 1.5 * 10) * kHost + (3 * 9 + 2 * 3 + 12 + 2 * 3 + 1.5 * (8 + 1)) * real_size +
+                    (1.5 * 3 + 3) * kIndex,
+                flops_of_transform()};
   });
 }
 
@@ -200,36 +193,9 @@ void add_coupling() {
     const std::shared_ptr<CouplingStep> step = backend.coupling(reshape_rest(elements));
     const Transforms transforms = 1.1 * identities(elements);
     const auto product = std::make_shared<Transforms>();
-    return Work{[=] { step->apply(transforms, *product); }, (2 * 9 + 33) * real_size + 3 * 4};
+    return Work{[=] { step->apply(transforms, *product); }, 2 * 9 * kHost + 33 * real_size + 3 * kIndex,
+                flops_of_coupling()};
   });
-}
-
-/// A torus of as many vertices, each with those within three edges.
-CurvatureStep::Rest curvature_rest(int vertices) {
-  const Mesh mesh = test::torus(1, 0.4, vertices / 100, 100);
-  const Lists near = one_rings(edges_of(mesh.triangles), vertices);
-  CurvatureStep::Rest rest{mesh.positions, mesh.positions, {0}, {}};
-  for (auto normal : rest.normals.rowwise()) {
-    const Eigen::RowVector3d flat(normal.x(), normal.y(), 0);
-    normal = (normal - flat.normalized()).normalized().eval();
-  }
-  std::vector<int> seen_from(static_cast<size_t>(vertices), -1);
-  for (int v = 0; v < vertices; ++v) {
-    const size_t first = rest.neighbours.size();
-    seen_from[static_cast<size_t>(v)] = v;
-    auto add_around = [&](int of) {
-      for (const int neighbour : near[of]) {
-        if (std::exchange(seen_from[static_cast<size_t>(neighbour)], v) != v) rest.neighbours.push_back(neighbour);
-      }
-    };
-    add_around(v);
-    for (int ring = 1; ring < 3; ++ring) {
-      const size_t known = rest.neighbours.size();
-      for (size_t k = first; k < known; ++k) add_around(rest.neighbours[k]);
-    }
-    rest.offsets.push_back(static_cast<int>(rest.neighbours.size()));
-  }
-  return rest;
 }
 
 /// An element a vertex: its neighbours, a position and a normal, and two curvatures.
@@ -239,7 +205,7 @@ void add_curvature() {
     const std::shared_ptr<CurvatureStep> step = backend.curvature(rest);
     const auto result = std::make_shared<Curvatures>();
     const double neighbours = static_cast<double>(rest.neighbours.size()) / elements;
-    return Work{[=] { step->fit(*result); }, 2 * 4 + neighbours * 4 + (3 + 3 + 2) * real_size,
+    return Work{[=] { step->fit(*result); }, 2 * kIndex + neighbours * kIndex + (3 + 3) * real_size + 2 * kHost,
                 flops_of_curvature(static_cast<int>(neighbours), real_size)};
   });
 }

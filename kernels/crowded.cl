@@ -11,8 +11,9 @@
 /// the first of them summed there. Terms: transform_normal.
 kernel void fit_crowded_edges(const int count, const real normal_weight, const real scale,
                               global const int* edges, global const int* offsets, global const int* beside,
-                              global const real* rest, global const real* weights, global const real* normals,
-                              global const host_scalar* transforms, global const real* inverses,
+                              global const real* rest, global const int* weight_places, global const real* weights,
+                              global const real* normals, global const host_scalar* transforms,
+                              global const real* inverses,
                               global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
                               global real* terms) {
   const int i = get_global_id(0);
@@ -27,7 +28,7 @@ kernel void fit_crowded_edges(const int count, const real normal_weight, const r
     sum = add_sides(sum, edge_side(host_row9(transforms, t), row9(inverses, t), row3(normals, t), edge));
   }
   terms[i] = (sum.turned - turned) / dot3(edge, edge);
-  const EdgeQuadratic q = edge_quadratic(sum, sum.length / (real)(last - first), 1, edge, weights[e], tile(rest, 8, 7, e),
+  const EdgeQuadratic q = edge_quadratic(sum, sum.length / (real)(last - first), 1, edge, weights[weight_places[e]], tile(rest, 8, 7, e),
                                          normal_weight, scale);
   store_host_row3(vec3(q.block.xx, q.block.xy, q.block.xz), blocks, 2 * e);
   store_host_row3(vec3(q.block.yy, q.block.yz, q.block.zz), blocks, 2 * e + 1);

@@ -5,8 +5,8 @@
 #include "shared/lane_memory.h"
 #include "shared/quadric.h"
 
-/// a[at] of each lane. In line always, as difference: a call would cost a step through memory.
-__attribute__((always_inline)) static inline real gather(global const scalar* a, global const int* at) {
+/// a[at] of each lane, from places in memory: taking them one by one from a vector would cost more.
+INLINE real gather_slot(global const scalar* a, global const int* at) {
 #if LANES == 1
   return a[at[0]];
 #else
@@ -17,11 +17,10 @@ __attribute__((always_inline)) static inline real gather(global const scalar* a,
 
 /// From vertices to others, along one axis. `places`: a row a vertex, its position and, in single precision, what
 /// rounding took from that: differences of near positions stay exact.
-__attribute__((always_inline)) static inline real difference(global const scalar* places, global const int* from,
-                                                             global const int* to) {
-  const real rounded = gather(places, to) - gather(places, from);
+INLINE real difference(global const scalar* places, global const int* from, global const int* to) {
+  const real rounded = gather_slot(places, to) - gather_slot(places, from);
   if (sizeof(scalar) != sizeof(float)) return rounded;
-  return rounded + (gather(places + 3, to) - gather(places + 3, from));
+  return rounded + (gather_slot(places + 3, to) - gather_slot(places + 3, from));
 }
 
 /// One item LANES vertices. `slots`: LANES vertices each, by where their rows of `places` begin. An item's, from
@@ -50,6 +49,6 @@ kernel void fit_curvatures(const int count, const int stride, global const int* 
   }
   const Rows rows = orthogonal(rows_of(triangle), sizeof(scalar));
   const PrincipalCurvatures k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
-  store_lanes(k.k1, curvatures, i);
-  store_lanes(k.k2, curvatures + stride, i);
+  store_entries(k.k1, curvatures + 2 * LANES * i, 2, LANES);
+  store_entries(k.k2, curvatures + 2 * LANES * i + 1, 2, LANES);
 }

@@ -21,8 +21,8 @@ kernel void invert(const int items, const int count, global const host_scalar* t
   store_rows9(inverse.matrix, inverses, i, count);
 }
 
-/// Edges. `beside`: their two triangles, or the one twice where there is one only or crowded.cl sees to the others.
-/// `rest`: vector, unit vector between the opposite vertices, similarity weight, kept target length or 0. Sums:
+/// Edges. `beside`: their two triangles, or the one twice where there is one only or crowded.cl sees to the others, and
+/// where one of them has the edge's length weight. `rest`: vector, unit vector between the opposite vertices, similarity weight, kept target length or 0. Sums:
 /// transform_normal, connect, similarity.
 kernel void fit_edges(const int items, const int count, const scalar normal_weight,
                       const scalar scale, global const int* beside, global const scalar* rest,
@@ -31,13 +31,13 @@ kernel void fit_edges(const int items, const int count, const scalar normal_weig
                       global host_scalar* targets, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
-  const lane_index t = load_indices(beside, 2, 0, i), s = load_indices(beside, 2, 1, i);
+  const lane_index t = load_indices(beside, 3, 0, i), s = load_indices(beside, 3, 1, i);
   const Vec3 edge = load_tile3(rest, 8, 0, i), opposite = load_tile3(rest, 8, 3, i);
   const Mat3 transform = gather_host9(transforms, t), other = gather_host9(transforms, s);
   const EdgeSum sum = add_sides(edge_side(transform, gather9(inverses, t), gather3(normals, t), edge),
                                 edge_side(other, gather9(inverses, s), gather3(normals, s), edge));
   const real share = (real)0.5 + (real)0.5 * one_where(t != s);
-  const EdgeQuadratic q = edge_quadratic(sum, (real)0.5 * sum.length, share, edge, load_lanes(weights, i),
+  const EdgeQuadratic q = edge_quadratic(sum, (real)0.5 * sum.length, share, edge, gather(weights, load_indices(beside, 3, 2, i)),
                                          load_tile(rest, 8, 7, i), (real)normal_weight, (real)scale);
   const Mat3 difference = sub_mat3(transform, other);
   const real present = present_lanes(i, count), per_square = present / dot3(edge, edge);
@@ -50,20 +50,8 @@ kernel void fit_edges(const int items, const int count, const scalar normal_weig
   store_host_entries(q.target, targets + LANES * i, 1, elements);
 }
 
-/// To the edges that the item's triangles tell of.
-static inline void store_own(real weight, lane_index edge, global scalar* weights, int elements) {
-  scalar own[LANES];
-  int edges[LANES];
-  VSTORE(weight, 0, own);
-  VSTORE(edge, 0, edges);
-#pragma unroll
-  for (int k = 0; k < LANES; ++k) {
-    if (k < elements && edges[k] >= 0) weights[edges[k]] = own[k];
-  }
-}
-
-/// Triangles. `corners`: their vertices, then their edges, e where the triangle tells of it, else -1 - e. `rest`: their
-/// edges' vectors. Sums: transform, normal, scale.
+/// Triangles. `corners`: their vertices. `rest`: their edges' vectors, and 1 over how many triangles each edge has.
+/// `weights`: length weights of their edges. Sums: transform, normal, scale.
 kernel void fit_triangles(const int items, const int count, const scalar regularizer_weight,
                           const scalar mean_edge_length, global const int* corners, global const host_scalar* positions,
                           global const scalar* residues, global const scalar* inverses, global const scalar* normals,
@@ -74,20 +62,19 @@ kernel void fit_triangles(const int items, const int count, const scalar regular
   const lane_index own = own_elements(i, count);
   const Mat3 inverse = gather9(inverses, own);
   const Vec3 normal = gather3(normals, own);
-  const lane_index first = load_indices(corners, 6, 0, i);
+  const Round now = sides_between(positions, residues, load_indices(corners, 3, 0, i), load_indices(corners, 3, 1, i),
+                                  load_indices(corners, 3, 2, i));
   const real mean = (real)mean_edge_length;
   TriangleTerms sum = no_edges((real)regularizer_weight);
-  lane_index from = first;
-#pragma unroll
-  for (int k = 0; k < 3; ++k) {
-    const lane_index to = k == 2 ? first : load_indices(corners, 6, k + 1, i);
-    const lane_index edge = load_indices(corners, 6, 3 + k, i);
-    const Vec3 side = side_between(positions, residues, from, to);
-    const real weight = gather(weights, edge < 0 ? -1 - edge : edge);
-    sum = add_edge(sum, inverse, normal, side, load_tile3(rest, 9, 3 * k, i), weight, one_where(edge >= 0), mean);
-    store_own(length_weight(side, mean), edge, next_weights, elements_of(i, count));
-    from = to;
-  }
+  sum = add_edge(sum, inverse, normal, now.first, load_tile3(rest, 12, 0, i), load_tile(weights, 3, 0, i),
+                 load_tile(rest, 12, 9, i), mean);
+  sum = add_edge(sum, inverse, normal, now.second, load_tile3(rest, 12, 3, i), load_tile(weights, 3, 1, i),
+                 load_tile(rest, 12, 10, i), mean);
+  sum = add_edge(sum, inverse, normal, now.third, load_tile3(rest, 12, 6, i), load_tile(weights, 3, 2, i),
+                 load_tile(rest, 12, 11, i), mean);
+  store_tile(length_weight(now.first, mean), next_weights, 3, 0, i);
+  store_tile(length_weight(now.second, mean), next_weights, 3, 1, i);
+  store_tile(length_weight(now.third, mean), next_weights, 3, 2, i);
   const real present = present_lanes(i, count);
   store_sums(i, sums, present * sum.transform, present * sum.normal, present * sum.scale);
   store_host_rows9(sum.right_hand_side, right_hand_sides, i, count);
@@ -129,10 +116,10 @@ kernel void place_corners(const int items, const int count, global const int* co
   const lane_index a = load_indices(corners, 3, 0, i), b = load_indices(corners, 3, 1, i),
                    c = load_indices(corners, 3, 2, i);
   const Vec3 shrink = load_tile3(rest, 22, 19, i);
-  const Sides now = sides(scale3(shrink.x, side_between(positions, residues, a, b)),
-                          scale3(shrink.y, side_between(positions, residues, b, c)),
-                          scale3(shrink.z, side_between(positions, residues, c, a)));
-  store_sphericity(rest, now, i, count, sums);
+  const Round now = sides_between(positions, residues, a, b, c);
+  const Sides relative =
+      sides(scale3(shrink.x, now.first), scale3(shrink.y, now.second), scale3(shrink.z, now.third));
+  store_sphericity(rest, relative, i, count, sums);
 }
 
 /// Sums of GROUP items' sums. One item an element.

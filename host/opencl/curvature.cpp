@@ -11,6 +11,7 @@ namespace {
 using Eigen::Index;
 using Rest = CurvatureStep::Rest;
 
+constexpr const char* kStem = "curvature";
 // Fewer neighbours than coefficients tell nothing.
 constexpr int kFewestNeighbours = 5;
 // Vertices of so many in a row may change places, so that those of an item have as many neighbours: little is filled
@@ -85,34 +86,35 @@ Slots slots_of(const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::V
 class OpenClCurvature final : public CurvatureStep {
  public:
   OpenClCurvature(const Queue& queue, const Rest& rest)
-      : OpenClCurvature(queue, rest, in_lanes(rest, queue.context->lanes())) {}
+      : OpenClCurvature(queue, rest, in_lanes(rest, queue.context->lanes(kStem))) {}
 
   void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) override {
-    const Index count = curvatures_in_lanes_.rows();
     fit_.launch(items_, stride_, first_slots_, slots_, places_, normals_, curvatures_);
-    curvatures_.download_strided(curvatures_in_lanes_, stride_);
-    curvatures.resize(count, 2);
-    curvatures(vertices_.head(count), Eigen::all) = per_length_ * curvatures_in_lanes_;
+    curvatures_.download(curvatures_in_lanes_, Layout::rows);
+    curvatures.resize(count_, 2);
+    curvatures(vertices_.head(count_), Eigen::all) = per_length_ * curvatures_in_lanes_.topRows(count_);
   }
 
  private:
   OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices)
-      : OpenClCurvature(queue, rest, vertices, first_slots(rest, vertices, queue.context->lanes())) {}
+      : OpenClCurvature(queue, rest, vertices, first_slots(rest, vertices, queue.context->lanes(kStem))) {}
 
   OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first)
-      : items_(static_cast<int>(first.size()) - 1),
+      : count_(rest.positions.rows()),
+        items_(static_cast<int>(first.size()) - 1),
         stride_(static_cast<int>(vertices.size())),
         per_length_(inverse_extent(rest.positions)),
         vertices_(vertices),
         first_slots_(queue, first),
-        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes()) * width(queue.context->precision()),
+        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes(kStem)) * width(queue.context->precision()),
                Layout::rows),
         places_(queue, places(rest.positions, per_length_, queue.context->precision()), Layout::rows),
         normals_(queue, rest.normals(vertices, Eigen::all)),
         curvatures_(queue, Index{2} * stride_),
-        curvatures_in_lanes_(rest.positions.rows(), 2),
-        fit_(queue, "curvature", "fit_curvatures") {}
+        curvatures_in_lanes_(stride_, 2),
+        fit_(queue, kStem, "fit_curvatures") {}
 
+  Index count_;
   int items_, stride_;
   double per_length_;
   Eigen::VectorXi vertices_;

@@ -26,33 +26,35 @@ class Maker {
 
  private:
   void list_triangles() {
+    const Index triangles = rest_.triangles.rows();
     table.beside.setConstant(rest_.edges.rows(), 2, -1);
-    table.corners_and_edges.resize(rest_.triangles.rows(), 6);
-    table.corners_and_edges.leftCols<3>() = rest_.triangles;
-    table.vectors_of_triangles.resize(rest_.triangles.rows(), 9);
-    for (int t = 0; t < rest_.triangles.rows(); ++t) {
+    table.first_corners.resize(rest_.edges.rows());
+    table.of_triangles.resize(triangles, 12);
+    Eigen::VectorXd uses = Eigen::VectorXd::Zero(rest_.edges.rows());
+    for (int t = 0; t < triangles; ++t) {
       for (int k = 0; k < 3; ++k) {
         const int e = rest_.triangle_edges(t, k);
-        // Beside an edge that runs the other way round the triangle, its vector does so too.
         const double along = rest_.edges(e, 0) == rest_.triangles(t, k) ? 1 : -1;
-        table.vectors_of_triangles.row(t).segment<3>(3 * k) = along * rest_.edge_vectors.row(e);
-        table.corners_and_edges(t, 3 + k) = place(t, e) ? e : -1 - e;
+        table.of_triangles.row(t).segment<3>(3 * k) = along * rest_.edge_vectors.row(e);
+        if (table.beside(e, 0) < 0) table.first_corners[e] = 3 * t + k;
+        place(t, e);
+        ++uses[e];
       }
+    }
+    for (Index t = 0; t < triangles; ++t) {
+      for (int k = 0; k < 3; ++k) table.of_triangles(t, 9 + k) = 1 / uses[rest_.triangle_edges(t, k)];
     }
   }
 
-  /// Whether t is the first at e.
-  bool place(int t, int e) {
+  void place(int t, int e) {
     auto beside = table.beside.row(e);
-    const bool first = beside[0] < 0;
-    if (first) {
+    if (beside[0] < 0) {
       beside.setConstant(t);
     } else if (beside[1] == beside[0] && t != beside[0]) {
       beside[1] = t;
     } else {
       more_[e].push_back(t);
     }
-    return first;
   }
 
   void start_rest() {

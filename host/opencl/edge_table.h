@@ -20,9 +20,10 @@ struct EdgeTable {
   Ints2 pairs;
   Rest pair_rest;
 
-  /// #T × 6: vertices, then edges, e where the triangle is the edge's first, else -1 - e; and those edges' vectors.
-  Eigen::Matrix<int, Eigen::Dynamic, 6, Eigen::RowMajor> corners_and_edges;
-  Transforms vectors_of_triangles;
+  /// #T × 12: vectors of a triangle's edges, the way round it, and 1 over how many triangles each has.
+  Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> of_triangles;
+  /// #E: 3 t + k, a triangle t whose k-th edge it is.
+  Eigen::VectorXi first_corners;
 };
 
 EdgeTable edge_table(const TransformStep::Rest& rest);

@@ -1,11 +1,20 @@
 #include "host_rows.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "words.h"
 
 namespace swage {
 
 HostRows::HostRows(const Queue& queue, Eigen::Index size)
-    : queue_(queue), copy_(queue, queue.context->in_host_memory() ? 0 : size) {}
+    : queue_(queue), size_(size), copy_(queue, queue.context->in_host_memory() ? 0 : size) {}
+
+void HostRows::check(Eigen::Index size) const {
+  if (size == size_) return;
+  throw std::out_of_range("array of " + std::to_string(size) + " numbers of the host's where the step has " +
+                          std::to_string(size_));
+}
 
 void HostRows::share(double* values, Eigen::Index size) {
   bytes_ = static_cast<std::size_t>(size) * sizeof(double);

@@ -17,13 +17,14 @@ struct HostNumber {
 /// the host's memory it lies where the host has it; elsewhere on the device, and is copied there or back.
 class HostRows {
  public:
-  /// Of `size` numbers at most.
+  /// Of `size` numbers; with others, what follows throws std::out_of_range.
   HostRows(const Queue& queue, Eigen::Index size);
 
   /// For kernels to read.
   template <typename Matrix>
   void show(const Matrix& values) {
     static_assert(Matrix::IsRowMajor || Matrix::ColsAtCompileTime == 1);
+    check(values.size());
     if (shared()) {
       share(const_cast<double*>(values.data()), values.size());  // Kernels take it as const.
       queue_.context->count_upload(bytes_);
@@ -36,6 +37,7 @@ class HostRows {
   template <typename Matrix>
   void lend(Matrix& values) {
     static_assert(Matrix::IsRowMajor || Matrix::ColsAtCompileTime == 1);
+    check(values.size());
     if (shared()) share(values.data(), values.size());
   }
 
@@ -55,10 +57,12 @@ class HostRows {
  private:
   friend class Visit;
   bool shared() const { return queue_.context->in_host_memory(); }
+  void check(Eigen::Index size) const;
   void share(double* values, Eigen::Index size);
   void wait_for_shared();
 
   Queue queue_;
+  Eigen::Index size_;
   Reals copy_;
   cl::Buffer shared_;
   std::size_t bytes_ = 0;  // Of what is shared.

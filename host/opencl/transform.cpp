@@ -15,10 +15,27 @@ namespace {
 using Eigen::Index;
 using Rest = TransformStep::Rest;
 
-Eigen::VectorXd initial_weights(const Rest& rest) {
-  if (rest.length_weights.size() != 0) return rest.length_weights;
-  const double squared = rest.mean_edge_length * rest.mean_edge_length;
-  return (rest.edge_vectors.rowwise().squaredNorm() / squared).cwiseMax(1);  // Eq. 6
+/// Of each triangle's edges.
+Positions initial_weights(const Rest& rest) {
+  Eigen::VectorXd of_edges = rest.length_weights;
+  if (of_edges.size() == 0) {
+    const double squared = rest.mean_edge_length * rest.mean_edge_length;
+    of_edges = (rest.edge_vectors.rowwise().squaredNorm() / squared).cwiseMax(1);  // Eq. 6
+  }
+  Positions weights(rest.triangles.rows(), 3);
+  for (Index t = 0; t < weights.rows(); ++t) weights.row(t) = of_edges(rest.triangle_edges.row(t)).transpose();
+  return weights;
+}
+
+/// Where a triangle has each edge's weight, in tiles.
+Eigen::VectorXi weight_places(const EdgeTable& table, const LaneItems& triangles) {
+  return table.first_corners.unaryExpr([&](int corner) { return triangles.tile_place(corner / 3, corner % 3, 3); });
+}
+
+Eigen::Matrix<int, Eigen::Dynamic, 3> beside(const EdgeTable& table, const LaneItems& triangles) {
+  Eigen::Matrix<int, Eigen::Dynamic, 3> all(table.beside.rows(), 3);
+  all << table.beside, weight_places(table, triangles);
+  return all;
 }
 
 class OpenClTransform final : public TransformStep {
@@ -58,8 +75,8 @@ class OpenClTransform final : public TransformStep {
     show(positions);
     right_hand_sides_.lend(right_hand_sides);
     fit_triangles_.launch(triangles_.items(), triangles_.count, constants_.regularizer_weight,
-                          constants_.mean_edge_length, corners_and_edges_, positions_, residues_, inverses_, normals_,
-                          edge_vectors_, weights(), next_weights_, right_hand_sides_, triangle_sums_.of_items());
+                          constants_.mean_edge_length, triangle_corners_, positions_, residues_, inverses_, normals_,
+                          triangle_edges_, weights(), next_weights_, right_hand_sides_, triangle_sums_.of_items());
     place_corners_.launch(round_.items(), round_.count, corners_, corner_rest_, positions_, residues_,
                           corner_sums_.of_items());
     for (Sums* sums : {&triangle_sums_, &corner_sums_}) sums->add_up();
@@ -77,15 +94,15 @@ class OpenClTransform final : public TransformStep {
         triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
         edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
         round_{static_cast<int>(round.triangles.size()), queue.context->lanes("transform")},
-        beside_(queue, edges_.tiles(table.beside)),
-        corners_and_edges_(queue, triangles_.tiles(table.corners_and_edges)),
+        beside_(queue, edges_.tiles(beside(table, triangles_))),
+        triangle_corners_(queue, triangles_.tiles(rest.triangles)),
         round_triangles_(queue, round_.tiles(round.triangles)),
         corners_(queue, round_.tiles(round.corners)),
         edge_rest_(queue, edges_.tiles(table.rest)),
         normals_(queue, rest.normals, Layout::rows),
-        edge_vectors_(queue, triangles_.tiles(table.vectors_of_triangles)),
+        triangle_edges_(queue, triangles_.tiles(table.of_triangles)),
         corner_rest_(queue, round_.tiles(round.rest)),
-        initial_weights_(queue, edges_.tiles(initial_weights(rest))),
+        initial_weights_(queue, triangles_.tiles(initial_weights(rest))),
         current_weights_(queue, initial_weights_.size()),
         next_weights_(queue, initial_weights_.size()),
         inverses_(queue, Index{9} * triangles_.count),
@@ -101,23 +118,24 @@ class OpenClTransform final : public TransformStep {
         mapped_sums_(queue, round_.items()),
         triangle_sums_(queue, triangles_.items()),
         corner_sums_(queue, round_.items()) {
-    if (table.crowded.size() != 0 || table.pairs.rows() != 0) crowds_.emplace(queue, table);
+    if (table.crowded.size() != 0 || table.pairs.rows() != 0) crowds_.emplace(queue, table, triangles_);
   }
 
   /// Where more than two triangles meet.
   struct Crowds {
-    Crowds(const Queue& queue, const EdgeTable& table)
+    Crowds(const Queue& queue, const EdgeTable& table, const LaneItems& of_triangles)
         : edges(queue, table.crowded),
           offsets(queue, table.offsets),
           triangles(queue, table.triangles),
           pairs(queue, table.pairs, Layout::rows),
+          weight_places(queue, swage::weight_places(table, of_triangles)),
           pair_rest(queue, table.pair_rest, Layout::rows),
           edge_terms(queue, table.crowded.size()),
           pair_terms(queue, table.pairs.size()),
           fit_crowded_edges(queue, "crowded", "fit_crowded_edges"),
           compare_pairs(queue, "crowded", "compare_pairs") {}
 
-    Ints edges, offsets, triangles, pairs;
+    Ints edges, offsets, triangles, pairs, weight_places;
     Reals pair_rest, edge_terms, pair_terms;
     Kernel fit_crowded_edges, compare_pairs;
   };
@@ -126,7 +144,8 @@ class OpenClTransform final : public TransformStep {
     Crowds& c = *crowds_;
     c.fit_crowded_edges.launch(c.edges.size(), per_length(constants_.normal_weight),
                                per_length(constants_.scale_weight), c.edges, c.offsets, c.triangles, edge_rest_,
-                               weights(), normals_, transforms_, inverses_, blocks_, sides_, targets_, c.edge_terms);
+                               c.weight_places, weights(), normals_, transforms_, inverses_, blocks_, sides_, targets_,
+                               c.edge_terms);
     c.compare_pairs.launch(c.pairs.size() / 2, c.pairs, c.pair_rest, transforms_, c.pair_terms);
   }
 
@@ -179,8 +198,8 @@ class OpenClTransform final : public TransformStep {
   Energy energy_;
 
   // The rest shape.
-  Ints beside_, corners_and_edges_, round_triangles_, corners_;
-  Reals edge_rest_, normals_, edge_vectors_, corner_rest_;
+  Ints beside_, triangle_corners_, round_triangles_, corners_;
+  Reals edge_rest_, normals_, triangle_edges_, corner_rest_;
   std::optional<Crowds> crowds_;
 
   Reals initial_weights_, current_weights_, next_weights_;

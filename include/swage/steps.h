@@ -1,4 +1,5 @@
 // The local steps: what is asked of each, whoever does it. A step owns what never changes; a call brings what does.
+// Results must not share memory with what a call brings: devices may read the one while they write the other.
 #pragma once
 
 #include <Eigen/Core>
@@ -68,7 +69,7 @@ class TransformStep {
 class CouplingStep {
  public:
   virtual ~CouplingStep() = default;
-  /// product = matrix · transforms, both #T × 9.
+  /// product = matrix · transforms, both #T × 9 and not the same.
   virtual void apply(const Transforms& transforms, Transforms& product) = 0;
 };
 

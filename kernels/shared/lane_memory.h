@@ -67,6 +67,9 @@ INLINE lane_index load_indices(global const int* a, int width, int k, int i) {
 INLINE real load_tile(global const scalar* a, int width, int k, int i) {
   return load_lanes(a, tile_place(width, k, i));
 }
+INLINE void store_tile(real v, global scalar* a, int width, int k, int i) {
+  store_lanes(v, a, tile_place(width, k, i));
+}
 INLINE Vec3 load_tile3(global const scalar* a, int width, int k, int i) {
   return vec3(load_tile(a, width, k, i), load_tile(a, width, k + 1, i), load_tile(a, width, k + 2, i));
 }
@@ -99,18 +102,46 @@ INLINE Mat3 gather_host9(global const host_scalar* a, lane_index at) {
   return mat3(gather_host3(a, 3 * at), gather_host3(a + 3, 3 * at), gather_host3(a + 6, 3 * at));
 }
 
-/// From vertex i to j. `residues` are what rounding took from positions that are not the host's own: differences of
-/// near positions stay exact.
-INLINE real coordinate_between(global const host_scalar* positions, global const scalar* residues, lane_index i,
-                               lane_index j) {
-  const real side = to_lanes(gather_exactly(positions, j) - gather_exactly(positions, i));
-  return HOST_IS_EXACT ? side : side + (gather(residues, j) - gather(residues, i));
+/// What lies between three vertices, round from each to the next.
+typedef struct {
+  real first, second, third;
+} Gaps;
+
+/// Along one axis. `residues` are what rounding took from positions that are not the host's own: differences of near
+/// positions stay exact.
+INLINE Gaps gaps_between(global const host_scalar* positions, global const scalar* residues, lane_index a, lane_index b,
+                         lane_index c) {
+  const host_lanes at_a = gather_exactly(positions, a), at_b = gather_exactly(positions, b);
+  const host_lanes at_c = gather_exactly(positions, c);
+  Gaps gaps;
+  gaps.first = to_lanes(at_b - at_a);
+  gaps.second = to_lanes(at_c - at_b);
+  gaps.third = to_lanes(at_a - at_c);
+  if (!HOST_IS_EXACT) {
+    const real of_a = gather(residues, a), of_b = gather(residues, b), of_c = gather(residues, c);
+    gaps.first += of_b - of_a;
+    gaps.second += of_c - of_b;
+    gaps.third += of_a - of_c;
+  }
+  return gaps;
 }
-INLINE Vec3 side_between(global const host_scalar* positions, global const scalar* residues, lane_index i,
-                         lane_index j) {
-  return vec3(coordinate_between(positions, residues, 3 * i, 3 * j),
-              coordinate_between(positions + 1, residues + 1, 3 * i, 3 * j),
-              coordinate_between(positions + 2, residues + 2, 3 * i, 3 * j));
+
+/// A vector each.
+typedef struct {
+  Vec3 first, second, third;
+} Round;
+
+/// The sides from a to b to c to a.
+INLINE Round sides_between(global const host_scalar* positions, global const scalar* residues, lane_index a,
+                           lane_index b, lane_index c) {
+  const Gaps x = gaps_between(positions, residues, 3 * a, 3 * b, 3 * c);
+  const Gaps y = gaps_between(positions + 1, residues + 1, 3 * a, 3 * b, 3 * c);
+  const Gaps z = gaps_between(positions + 2, residues + 2, 3 * a, 3 * b, 3 * c);
+  Round round;
+  round.first = vec3(x.first, y.first, z.first);
+  round.second = vec3(x.second, y.second, z.second);
+  round.third = vec3(x.third, y.third, z.third);
+  return round;
 }
 
 /// An entry each to the rows of an item's elements, the first at `a`, of which there are so many.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "element_pairs.h"
 #include "opencl_steps.h"
@@ -76,6 +77,23 @@ TEST_P(Apart, RotationsAndSimilaritiesAreTheReferences) {
   opencl_similarity(context_, rest)->fit(moved, Positions(0, 3), result);
   cpu_backend()->similarity(rest)->fit(moved, Positions(0, 3), expected);
   EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), GetParam() == Precision::single ? 1e-3 : 1e-5);
+}
+
+TEST_P(Apart, ArraysOfOtherSizesAreRefusedInAnyMemory) {
+  if (!context_) return;
+  const TransformStep::Rest rest = test::rest_of(test::torus());
+  const Eigen::Index count = rest.triangles.rows();
+  for (const SharedContext& context : {context_, test::context_or_skip(GetParam())}) {
+    Transforms result;
+    TransformStep::EdgeQuadratics quadratics;
+    for (const Eigen::Index wrong : {Eigen::Index{0}, count - 1, count + 1}) {
+      EXPECT_THROW(opencl_coupling(context, rest)->apply(identities(wrong), result), std::out_of_range);
+      EXPECT_THROW(opencl_transform(context, rest)->fit_edges(identities(wrong), quadratics), std::out_of_range);
+    }
+    const PairsRest pairs = test::triangle_pairs(test::torus());
+    const Positions few = pairs.vertices.topRows(pairs.vertices.rows() - 1);
+    EXPECT_THROW(opencl_rotation(context, pairs)->fit(few, Positions(0, 3), result), std::out_of_range);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Precisions, Apart, testing::Values(Precision::single, Precision::twice),
