@@ -99,7 +99,8 @@ Flops flops_of_transform() {
     }
   });
   const Flops per_edge = flops_of([=] {
-    const EdgeSum sum = add_sides(edge_side(m, m, normal, edge), edge_side(m, m, normal, edge));
+    const EdgeSum sum =
+        add_sides(edge_side(apply3(m, edge), m, normal, edge), edge_side(apply3(m, edge), m, normal, edge));
     edge_quadratic(sum, sum.length, 1, edge, 1, 0, 1, 1);
     const Mat3 difference = sub_mat3(m, m);
     disagreement(difference, edge) + disagreement(difference, normal);

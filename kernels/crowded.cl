@@ -9,27 +9,26 @@
 
 /// The few edges with more triangles than transform.cl takes: the item's at offsets[i] .. offsets[i + 1] of `beside`,
 /// the first of them summed there. Terms: transform_normal.
-kernel void fit_crowded_edges(const int count, const real normal_weight, const real scale,
-                              global const int* edges, global const int* offsets, global const int* beside,
-                              global const real* rest, global const int* weight_places, global const real* weights,
-                              global const real* normals, global const host_scalar* transforms,
-                              global const real* inverses,
+kernel void fit_crowded_edges(const int count, const real normal_weight, const real scale, global const int* edges,
+                              global const int* offsets, global const int* beside, global const real* rest,
+                              global const int* weight_places, global const real* weights, global const real* normals,
+                              global const host_scalar* transforms, global const real* inverses,
                               global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
                               global real* terms) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int e = edges[i], first = offsets[i], last = offsets[i + 1];
   const Vec3 edge = tile3(rest, 8, 0, e);
-  EdgeSum sum = edge_side(host_row9(transforms, beside[first]), row9(inverses, beside[first]),
+  EdgeSum sum = edge_side(apply3(host_row9(transforms, beside[first]), edge), row9(inverses, beside[first]),
                           row3(normals, beside[first]), edge);
   const real turned = sum.turned;
   for (int k = first + 1; k < last; ++k) {
     const int t = beside[k];
-    sum = add_sides(sum, edge_side(host_row9(transforms, t), row9(inverses, t), row3(normals, t), edge));
+    sum = add_sides(sum, edge_side(apply3(host_row9(transforms, t), edge), row9(inverses, t), row3(normals, t), edge));
   }
   terms[i] = (sum.turned - turned) / dot3(edge, edge);
-  const EdgeQuadratic q = edge_quadratic(sum, sum.length / (real)(last - first), 1, edge, weights[weight_places[e]], tile(rest, 8, 7, e),
-                                         normal_weight, scale);
+  const EdgeQuadratic q = edge_quadratic(sum, sum.length / (real)(last - first), 1, edge, weights[weight_places[e]],
+                                         tile(rest, 8, 7, e), normal_weight, scale);
   store_host_row3(vec3(q.block.xx, q.block.xy, q.block.xz), blocks, 2 * e);
   store_host_row3(vec3(q.block.yy, q.block.yz, q.block.zz), blocks, 2 * e + 1);
   store_host_row3(q.side, sides, e);

@@ -22,27 +22,30 @@ kernel void invert(const int items, const int count, global const host_scalar* t
 }
 
 /// Edges. `beside`: their two triangles, or the one twice where there is one only or crowded.cl sees to the others, and
-/// where one of them has the edge's length weight. `rest`: vector, unit vector between the opposite vertices, similarity weight, kept target length or 0. Sums:
-/// transform_normal, connect, similarity.
-kernel void fit_edges(const int items, const int count, const scalar normal_weight,
-                      const scalar scale, global const int* beside, global const scalar* rest,
-                      global const scalar* weights, global const scalar* normals, global const host_scalar* transforms,
-                      global const scalar* inverses, global host_scalar* blocks, global host_scalar* sides,
-                      global host_scalar* targets, global scalar* sums) {
+/// where one of them has the edge's length weight. `rest`: vector, unit vector between the opposite vertices,
+/// similarity weight, kept target length or 0. Sums: transform_normal, connect, similarity.
+kernel void fit_edges(const int items, const int count, const scalar normal_weight, const scalar scale,
+                      global const int* beside, global const scalar* rest, global const scalar* weights,
+                      global const scalar* normals, global const host_scalar* transforms, global const scalar* inverses,
+                      global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
+                      global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const lane_index t = load_indices(beside, 3, 0, i), s = load_indices(beside, 3, 1, i);
   const Vec3 edge = load_tile3(rest, 8, 0, i), opposite = load_tile3(rest, 8, 3, i);
+  // First what needs the transforms: there are no registers for all matrices at once.
   const Mat3 transform = gather_host9(transforms, t), other = gather_host9(transforms, s);
-  const EdgeSum sum = add_sides(edge_side(transform, gather9(inverses, t), gather3(normals, t), edge),
-                                edge_side(other, gather9(inverses, s), gather3(normals, s), edge));
-  const real share = (real)0.5 + (real)0.5 * one_where(t != s);
-  const EdgeQuadratic q = edge_quadratic(sum, (real)0.5 * sum.length, share, edge, gather(weights, load_indices(beside, 3, 2, i)),
-                                         load_tile(rest, 8, 7, i), (real)normal_weight, (real)scale);
   const Mat3 difference = sub_mat3(transform, other);
+  const real along = disagreement(difference, edge), across = disagreement(difference, opposite);
+  const Vec3 mapped = apply3(transform, edge), mapped_by_other = apply3(other, edge);
+  const EdgeSum sum = add_sides(edge_side(mapped, gather9(inverses, t), gather3(normals, t), edge),
+                                edge_side(mapped_by_other, gather9(inverses, s), gather3(normals, s), edge));
+  const real share = (real)0.5 + (real)0.5 * one_where(t != s);
+  const EdgeQuadratic q =
+      edge_quadratic(sum, (real)0.5 * sum.length, share, edge, gather(weights, load_indices(beside, 3, 2, i)),
+                     load_tile(rest, 8, 7, i), (real)normal_weight, (real)scale);
   const real present = present_lanes(i, count), per_square = present / dot3(edge, edge);
-  store_sums(i, sums, per_square * share * sum.turned, per_square * disagreement(difference, edge),
-             present * load_tile(rest, 8, 6, i) * disagreement(difference, opposite));
+  store_sums(i, sums, per_square * share * sum.turned, per_square * along, present * load_tile(rest, 8, 6, i) * across);
   const int elements = elements_of(i, count);
   store_host3(vec3(q.block.xx, q.block.xy, q.block.xz), blocks + 6 * LANES * i, 6, elements);
   store_host3(vec3(q.block.yy, q.block.yz, q.block.zz), blocks + 6 * LANES * i + 3, 6, elements);
@@ -90,35 +93,31 @@ static inline Corners load_turns(global const scalar* rest, int i) {
   return turns;
 }
 
-static inline void store_sphericity(global const scalar* rest, Sides now, int i, int count,
-                                    global scalar* sums) {
+static inline void store_sphericity(global const scalar* rest, Sides now, int i, int count, global scalar* sums) {
   const real weight = present_lanes(i, count) * load_tile(rest, 22, 18, i);
   store_sums(i, sums, weight * sum_of_squares(corner_misses(load_turns(rest, i), now)), (real)0, (real)0);
 }
 
 /// Triangles with sphericity. Sum: transform_sphericity.
-kernel void map_corners(const int items, const int count, global const int* triangles,
-                        global const scalar* rest, global const host_scalar* transforms, global scalar* sums) {
+kernel void map_corners(const int items, const int count, global const int* triangles, global const scalar* rest,
+                        global const host_scalar* transforms, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const Mat3 transform = gather_host9(transforms, load_indices(triangles, 1, 0, i));
-  const Sides unit =
-      sides(load_tile3(rest, 22, 9, i), load_tile3(rest, 22, 12, i), load_tile3(rest, 22, 15, i));
+  const Sides unit = sides(load_tile3(rest, 22, 9, i), load_tile3(rest, 22, 12, i), load_tile3(rest, 22, 15, i));
   store_sphericity(rest, map_sides(transform, unit), i, count, sums);
 }
 
 /// Triangles with sphericity. `corners`: their vertices. Sum: sphericity.
-kernel void place_corners(const int items, const int count, global const int* corners,
-                          global const scalar* rest, global const host_scalar* positions, global const scalar* residues,
-                          global scalar* sums) {
+kernel void place_corners(const int items, const int count, global const int* corners, global const scalar* rest,
+                          global const host_scalar* positions, global const scalar* residues, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const lane_index a = load_indices(corners, 3, 0, i), b = load_indices(corners, 3, 1, i),
                    c = load_indices(corners, 3, 2, i);
   const Vec3 shrink = load_tile3(rest, 22, 19, i);
   const Round now = sides_between(positions, residues, a, b, c);
-  const Sides relative =
-      sides(scale3(shrink.x, now.first), scale3(shrink.y, now.second), scale3(shrink.z, now.third));
+  const Sides relative = sides(scale3(shrink.x, now.first), scale3(shrink.y, now.second), scale3(shrink.z, now.third));
   store_sphericity(rest, relative, i, count, sums);
 }
 

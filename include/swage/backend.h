@@ -13,8 +13,8 @@ namespace swage {
 /// What a device computes in. Hosts and the reference compute in double.
 enum class Precision { single, twice };
 
-/// Host ↔ device traffic and times of all steps of a backend so far. A device that computes in the host's memory gets the
-/// host's arrays as they lie; they count all the same.
+/// Host ↔ device traffic and times of all steps of a backend so far. A device that computes in the host's memory gets
+/// the host's arrays as they lie; they count all the same.
 struct Traffic {
   std::size_t uploaded = 0;    ///< Bytes, static data included.
   std::size_t downloaded = 0;  ///< Bytes.

@@ -59,8 +59,8 @@ typedef struct {
   real length, turned;
 } EdgeSum;
 
-static inline EdgeSum edge_side(Mat3 transform, Mat3 inverse, Vec3 normal, Vec3 rest) {
-  const Vec3 mapped = apply3(transform, rest);
+/// `mapped`: the edge by the triangle's transform.
+static inline EdgeSum edge_side(Vec3 mapped, Mat3 inverse, Vec3 normal, Vec3 rest) {
   const real tilt = dot3(normal, mapped);
   EdgeSum side;
   side.grams = gram3(inverse);

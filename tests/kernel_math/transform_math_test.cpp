@@ -182,7 +182,8 @@ TYPED_TEST(TransformMath, EdgeQuadraticsAreTheEnergyOfTheEdge) {
     Vector3d normals[2];
     auto side = [&](int k) {
       transforms[k] = this->near_identity(), inverses[k] = this->near_identity(), normals[k] = this->vector();
-      return edge_side(this->to(transforms[k]), this->to(inverses[k]), this->to(normals[k]), this->to(rest));
+      return edge_side(this->to(Vector3d(transforms[k] * rest)), this->to(inverses[k]), this->to(normals[k]),
+                       this->to(rest));
     };
     const auto first = side(0), sum = add_sides(first, side(1));
     const double target = ((transforms[0] * rest).norm() + (transforms[1] * rest).norm()) / 2;
@@ -212,7 +213,7 @@ TYPED_TEST(TransformMath, EdgeQuadraticsAreTheEnergyOfTheEdge) {
 TYPED_TEST(TransformMath, AHalfOfTheSameSideTwiceIsTheSide) {
   const auto rest = this->to(this->vector());
   const auto side =
-      edge_side(this->to(this->near_identity()), this->to(this->near_identity()), this->to(this->vector()), rest);
+      edge_side(this->to(this->vector()), this->to(this->near_identity()), this->to(this->vector()), rest);
   const auto twice = add_sides(side, side);
   const auto one = edge_quadratic(side, side.length, 1, rest, 2, 0, 3, 4);
   const auto half = edge_quadratic(twice, twice.length / 2, this->to(0.5), rest, 2, 0, 3, 4);
@@ -225,7 +226,8 @@ TYPED_TEST(TransformMath, KeptAndFlattenedLengths) {
   const auto rest = this->to(Vector3d(1, 2, 2));
   const auto same = this->to(Matrix3d(2 * Matrix3d::Identity())), none = this->to(Matrix3d(Matrix3d::Zero()));
   const auto normal = this->to(Vector3d(0, 0, 1));
-  const auto side = edge_side(same, same, normal, rest), flat = edge_side(none, same, normal, rest);
+  const auto side = edge_side(apply3(same, rest), same, normal, rest),
+             flat = edge_side(apply3(none, rest), same, normal, rest);
   EXPECT_EQ(edge_quadratic(side, side.length, 1, rest, 1, 0, 1, 1).target, 6);
   EXPECT_EQ(edge_quadratic(side, side.length, 1, rest, 1, 4, 1, 1).target, 4);
   EXPECT_NEAR(edge_quadratic(flat, flat.length, 1, rest, 1, 0, 1, 1).target, 3e-9, 1e-15);

@@ -218,7 +218,8 @@ TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
     const Eigen::RowVector3d vector = rest.edge_vectors.row(e);
     const auto side = [&](int t) {
       const in_single::Mat3 transform = single9(input.transforms.row(t));
-      return in_single::edge_side(transform, in_single::damped_inverse(transform).matrix, single3(rest.normals.row(t)),
+      return in_single::edge_side(in_single::apply3(transform, single3(vector)),
+                                  in_single::damped_inverse(transform).matrix, single3(rest.normals.row(t)),
                                   single3(vector));
     };
     const Lists::Range beside = edges.triangles[e];
