@@ -1,8 +1,8 @@
-// The local steps: step × backend × precision × elements. `copy_share` is the memory that a step cannot but read and
-// write, per second, in parts of what a plain copy reaches in the same run. What crosses to the device and back is in
-// the steps' times, `up_per_element` and `down_per_element` are its bytes; upload and download also stand apart.
-// Building kernels is in none: `build_s`. `flop_share` is a device's arithmetic in parts of what it reaches in the same
-// run where nothing waits.
+// The local steps: step × backend × precision × elements. `copy_share` is what a step's kernels read and write, each
+// array once a kernel, per second, in parts of what a plain copy reaches in the same run. What crosses to the device
+// and back is in the steps' times, `up_per_element` and `down_per_element` are its bytes; upload and download also
+// stand apart. Building kernels is in none: `build_s`. `flop_share` is a device's arithmetic in parts of what it
+// reaches in the same run where nothing waits.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -45,7 +45,14 @@ Queue queue_on(Precision precision) {
 }
 
 double peak_on_device(Precision precision) { return peak_flops(queue_on(precision)); }
+
+std::string opencl_device() {
+  if (found_devices().empty()) return "none";
+  const Device& device = found_devices().front().facts;
+  return device.name + ", " + device.platform + ' ' + device.driver;
+}
 #else
+std::string opencl_device() { return "none"; }
 double peak_on_device(Precision) { return 0; }
 #endif
 
@@ -277,6 +284,7 @@ void add_crossings() {
 
 void register_all() {
   benchmark::AddCustomContext("copy_bytes_per_second", std::to_string(copy_bandwidth()));
+  benchmark::AddCustomContext("opencl_device", opencl_device());
   add_rotation();
   add_similarity();
   add_transform();

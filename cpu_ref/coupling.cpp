@@ -24,6 +24,7 @@ class CpuCoupling final : public CouplingStep {
   }
 
   void apply(const Transforms& transforms, Transforms& product) override {
+    check_rows("CouplingStep::apply", "transforms", transforms.rows(), rest_.triangles.rows());
     product.resize(transforms.rows(), 9);
 #pragma omp parallel for schedule(static)
     for (Eigen::Index t = 0; t < transforms.rows(); ++t) {

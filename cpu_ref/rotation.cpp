@@ -44,6 +44,8 @@ class CpuRotation final : public RotationStep {
   explicit CpuRotation(const PairsRest& rest) : rest_(rest) {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& rotations) override {
+    check_rows("RotationStep::fit", "positions", positions.rows(), rest_.vertices.rows());
+    check_rows("RotationStep::fit", "targets", targets.rows(), rest_.normals.rows());
     const Eigen::Index count = element_count(rest_);
     rotations.resize(count, 9);
 #pragma omp parallel for schedule(static)

@@ -18,6 +18,8 @@ class CpuSimilarity final : public SimilarityStep {
   explicit CpuSimilarity(const PairsRest& rest) : rest_(rest) {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& similarities) override {
+    check_rows("SimilarityStep::fit", "positions", positions.rows(), rest_.vertices.rows());
+    check_rows("SimilarityStep::fit", "targets", targets.rows(), rest_.normals.rows());
     const Eigen::Index count = element_count(rest_);
     similarities.resize(count, 9);
 #pragma omp parallel for schedule(static)

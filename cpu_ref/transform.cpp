@@ -64,6 +64,7 @@ class CpuTransform final : public TransformStep {
   }
 
   void fit_edges(const Transforms& transforms, EdgeQuadratics& quadratics) override {
+    check_rows("TransformStep::fit_edges", "transforms", transforms.rows(), rest_.triangles.rows());
     transforms_ = transforms;
     invert(quadratics);
     const Eigen::Index edge_count = rest_lengths_.size();
@@ -75,6 +76,7 @@ class CpuTransform final : public TransformStep {
   }
 
   Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) override {
+    check_rows("TransformStep::fit_transforms", "positions", positions.rows(), rest_.vertices.rows());
     vectors_.resize(rest_.edges.rows(), 3);
 #pragma omp parallel for schedule(static) if (rest_.edges.rows() > kWorthThreads)
     for (Eigen::Index e = 0; e < rest_.edges.rows(); ++e) {

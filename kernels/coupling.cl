@@ -1,5 +1,5 @@
 // The transform step's matrix times transforms (reshape paper, eq. 35). Matrices lie in rows, a triangle's nine numbers
-// one after the other.
+// one after the other; what corners compare in columns.
 #include "shared/scalar.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
@@ -49,17 +49,17 @@ kernel void couple_crowded(const int count, global const int* triangles, global 
 }
 
 /// One item a triangle with sphericity. `rest`: axis, cosines, sines, three unit sides, sphericity weight.
-kernel void couple_corners(const int count, const int stride, global const int* triangles, global const real* rest,
+kernel void couple_corners(const int count, global const int* triangles, global const real* rest,
                            global const host_scalar* transforms, global host_scalar* products) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int t = triangles[i];
   Corners turns;
-  turns.axis = column3(rest, stride, 0, i);
-  turns.cosines = column3(rest, stride, 3, i);
-  turns.sines = column3(rest, stride, 6, i);
-  const Sides unit = sides(column3(rest, stride, 9, i), column3(rest, stride, 12, i), column3(rest, stride, 15, i));
+  turns.axis = column3(rest, count, 0, i);
+  turns.cosines = column3(rest, count, 3, i);
+  turns.sines = column3(rest, count, 6, i);
+  const Sides unit = sides(column3(rest, count, 9, i), column3(rest, count, 12, i), column3(rest, count, 15, i));
   const Mat3 pull = corner_pull(turns, host_row9(transforms, t), unit);
-  const Mat3 product = add_mat3(host_row9(products, t), scale_mat3(rest[18 * stride + i], pull));
+  const Mat3 product = add_mat3(host_row9(products, t), scale_mat3(rest[18 * count + i], pull));
   store_host_row9(product, products, t);
 }

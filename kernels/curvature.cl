@@ -49,6 +49,6 @@ kernel void fit_curvatures(const int count, const int stride, global const int* 
   }
   const Rows rows = orthogonal(rows_of(triangle), sizeof(scalar));
   const PrincipalCurvatures k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
-  store_entries(k.k1, curvatures + 2 * LANES * i, 2, LANES);
-  store_entries(k.k2, curvatures + 2 * LANES * i + 1, 2, LANES);
+  store_entries(k.k1, curvatures + 2 * LANES * i, 2);
+  store_entries(k.k2, curvatures + 2 * LANES * i + 1, 2);
 }

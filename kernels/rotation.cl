@@ -4,6 +4,7 @@
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
 #include "shared/lane_memory.h"
+#include "shared/lane_rows.h"
 #include "shared/procrustes.h"
 #include "shared/pair_sums.h"
 

@@ -1,5 +1,5 @@
 // The transform step: invert, fit_edges and map_corners of the transforms, fit_triangles and place_corners of the
-// positions. One item LANES elements. What is gathered and what is the host's lies in rows, the rest in columns.
+// positions. One item LANES elements. What is gathered and what is the host's lies in rows, the rest in tiles.
 #include "shared/lanes.h"
 #include "shared/vec3.h"
 #include "shared/mat3.h"
@@ -7,10 +7,34 @@
 #include "shared/transform.h"
 #include "shared/triangle.h"
 #include "shared/lane_memory.h"
+#include "shared/lane_rows.h"
+#include "shared/lane_sides.h"
 #include "shared/lane_sums.h"
 
+/// What stands by a triangle in a row of 12: its transform's inverse, which invert writes, and its normal.
+typedef struct {
+  Mat3 inverse;
+  Vec3 normal;
+} TriangleRow;
+
+INLINE TriangleRow gather_triangle(global const scalar* triangle_rows, lane_index at) {
+  const Four first = gather4(triangle_rows, 12 * at), second = gather4(triangle_rows + 4, 12 * at);
+  const Four third = gather4(triangle_rows + 8, 12 * at);
+  TriangleRow row;
+  row.inverse = mat3_of_fours(first, second, third.x);
+  row.normal = vec3(third.y, third.z, third.w);
+  return row;
+}
+
+INLINE void store_inverse(Mat3 m, global scalar* triangle_rows, int i) {
+  triangle_rows += 12 * LANES * i;
+  scatter4(four(m.x.x, m.x.y, m.x.z, m.y.x), triangle_rows, 12);
+  scatter4(four(m.y.y, m.y.z, m.z.x, m.z.y), triangle_rows + 4, 12);
+  store_entries(m.z.z, triangle_rows + 8, 12);
+}
+
 /// Triangles. Sums: damped, regularizer.
-kernel void invert(const int items, const int count, global const host_scalar* transforms, global scalar* inverses,
+kernel void invert(const int items, const int count, global const host_scalar* transforms, global scalar* triangle_rows,
                    global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
@@ -18,62 +42,108 @@ kernel void invert(const int items, const int count, global const host_scalar* t
   const Inverse inverse = damped_inverse(transform);
   const real present = present_lanes(i, count);
   store_sums(i, sums, present * inverse.damped, present * distance_from_identity(transform), (real)0);
-  store_rows9(inverse.matrix, inverses, i, count);
+  store_inverse(inverse.matrix, triangle_rows, i);
 }
 
-/// Edges. `beside`: their two triangles, or the one twice where there is one only or crowded.cl sees to the others, and
-/// where one of them has the edge's length weight. `rest`: vector, unit vector between the opposite vertices,
-/// similarity weight, kept target length or 0. Sums: transform_normal, connect, similarity.
+INLINE void store_quadratic(EdgeQuadratic q, int first, int elements, global host_scalar* blocks,
+                            global host_scalar* sides, global host_scalar* targets) {
+  store_host4(four(q.block.xx, q.block.xy, q.block.xz, q.block.yy), blocks + 6 * first, 6, elements);
+  store_host4(four(q.block.xz, q.block.yy, q.block.yz, q.block.zz), blocks + 6 * first + 2, 6, elements);
+  store_host3(q.side, sides + 3 * first, 3, elements);
+  store_host_entries(q.target, targets + first, 1, elements);
+}
+
+INLINE EdgeSum side_of(Vec3 mapped, TriangleRow row, Vec3 edge) {
+  return edge_side(mapped, row.inverse, row.normal, edge);
+}
+
+/// Edges. `beside`: their two triangles, or the one twice where there is one only or fit_crowded_edges sees to the
+/// others, and where one of them has the edge's length weight. `rest`: vector, unit vector between the opposite
+/// vertices, similarity weight, kept target length or 0. Sums: transform_normal, connect, similarity.
 kernel void fit_edges(const int items, const int count, const scalar normal_weight, const scalar scale,
                       global const int* beside, global const scalar* rest, global const scalar* weights,
-                      global const scalar* normals, global const host_scalar* transforms, global const scalar* inverses,
+                      global const host_scalar* transforms, global const scalar* triangle_rows,
                       global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
                       global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const lane_index t = load_indices(beside, 3, 0, i), s = load_indices(beside, 3, 1, i);
   const Vec3 edge = load_tile3(rest, 8, 0, i), opposite = load_tile3(rest, 8, 3, i);
-  // First what needs the transforms: there are no registers for all matrices at once.
   const Mat3 transform = gather_host9(transforms, t), other = gather_host9(transforms, s);
   const Mat3 difference = sub_mat3(transform, other);
   const real along = disagreement(difference, edge), across = disagreement(difference, opposite);
-  const Vec3 mapped = apply3(transform, edge), mapped_by_other = apply3(other, edge);
-  const EdgeSum sum = add_sides(edge_side(mapped, gather9(inverses, t), gather3(normals, t), edge),
-                                edge_side(mapped_by_other, gather9(inverses, s), gather3(normals, s), edge));
+  const EdgeSum sum = add_sides(side_of(apply3(transform, edge), gather_triangle(triangle_rows, t), edge),
+                                side_of(apply3(other, edge), gather_triangle(triangle_rows, s), edge));
   const real share = (real)0.5 + (real)0.5 * one_where(t != s);
   const EdgeQuadratic q =
       edge_quadratic(sum, (real)0.5 * sum.length, share, edge, gather(weights, load_indices(beside, 3, 2, i)),
                      load_tile(rest, 8, 7, i), (real)normal_weight, (real)scale);
   const real present = present_lanes(i, count), per_square = present / dot3(edge, edge);
   store_sums(i, sums, per_square * share * sum.turned, per_square * along, present * load_tile(rest, 8, 6, i) * across);
-  const int elements = elements_of(i, count);
-  store_host3(vec3(q.block.xx, q.block.xy, q.block.xz), blocks + 6 * LANES * i, 6, elements);
-  store_host3(vec3(q.block.yy, q.block.yz, q.block.zz), blocks + 6 * LANES * i + 3, 6, elements);
-  store_host3(q.side, sides + 3 * LANES * i, 3, elements);
-  store_host_entries(q.target, targets + LANES * i, 1, elements);
+  store_quadratic(q, LANES * i, elements_of(i, count), blocks, sides, targets);
 }
+
+// Where more than two triangles meet: few, so that each is an item of its own (Context::program_alone).
+#if LANES == 1
+
+/// The few edges with more triangles: the item's at offsets[i] .. offsets[i + 1] of `beside`, the first of them summed
+/// by fit_edges. Terms: transform_normal.
+kernel void fit_crowded_edges(const int count, const scalar normal_weight, const scalar scale, global const int* edges,
+                              global const int* offsets, global const int* beside, global const scalar* rest,
+                              global const int* weight_places, global const scalar* weights,
+                              global const host_scalar* transforms, global const scalar* triangle_rows,
+                              global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
+                              global scalar* terms) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const int e = edges[i], first = offsets[i], last = offsets[i + 1];
+  const Vec3 edge = load_tile3(rest, 8, 0, e);
+  EdgeSum sum = no_sides();
+  real turned_by_first = 0;
+  for (int k = first; k < last; ++k) {
+    const Mat3 transform = gather_host9(transforms, beside[k]);
+    sum = add_sides(sum, side_of(apply3(transform, edge), gather_triangle(triangle_rows, beside[k]), edge));
+    if (k == first) turned_by_first = sum.turned;
+  }
+  terms[i] = (sum.turned - turned_by_first) / dot3(edge, edge);
+  const EdgeQuadratic q = edge_quadratic(sum, sum.length / (real)(last - first), 1, edge, weights[weight_places[e]],
+                                         load_tile(rest, 8, 7, e), normal_weight, scale);
+  store_quadratic(q, e, 1, blocks, sides, targets);
+}
+
+/// Pairs of triangles that fit_edges does not see. `rest` as of its edges, in rows. Terms: connect, similarity, a row a
+/// pair.
+kernel void compare_pairs(const int count, global const int* pairs, global const scalar* rest,
+                          global const host_scalar* transforms, global scalar* terms) {
+  const int p = get_global_id(0);
+  if (p >= count) return;
+  global const scalar* own = rest + 8 * p;
+  const Mat3 difference = sub_mat3(gather_host9(transforms, pairs[2 * p]), gather_host9(transforms, pairs[2 * p + 1]));
+  const Vec3 edge = gather3(own, 0);
+  terms[2 * p] = disagreement(difference, edge) / dot3(edge, edge);
+  terms[2 * p + 1] = own[6] * disagreement(difference, gather3(own, 1));
+}
+#endif
 
 /// Triangles. `corners`: their vertices. `rest`: their edges' vectors, and 1 over how many triangles each edge has.
 /// `weights`: length weights of their edges. Sums: transform, normal, scale.
 kernel void fit_triangles(const int items, const int count, const scalar regularizer_weight,
                           const scalar mean_edge_length, global const int* corners, global const host_scalar* positions,
-                          global const scalar* residues, global const scalar* inverses, global const scalar* normals,
-                          global const scalar* rest, global const scalar* weights, global scalar* next_weights,
+                          global const scalar* residues, global const scalar* triangle_rows, global const scalar* rest,
+                          global const scalar* weights, global scalar* next_weights,
                           global host_scalar* right_hand_sides, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
-  const lane_index own = own_elements(i, count);
-  const Mat3 inverse = gather9(inverses, own);
-  const Vec3 normal = gather3(normals, own);
-  const Round now = sides_between(positions, residues, load_indices(corners, 3, 0, i), load_indices(corners, 3, 1, i),
+  const TriangleRow row = gather_triangle(triangle_rows, own_elements(i, count));
+  const Sides now = sides_between(positions, residues, load_indices(corners, 3, 0, i), load_indices(corners, 3, 1, i),
                                   load_indices(corners, 3, 2, i));
   const real mean = (real)mean_edge_length;
   TriangleTerms sum = no_edges((real)regularizer_weight);
-  sum = add_edge(sum, inverse, normal, now.first, load_tile3(rest, 12, 0, i), load_tile(weights, 3, 0, i),
+  sum = add_edge(sum, row.inverse, row.normal, now.first, load_tile3(rest, 12, 0, i), load_tile(weights, 3, 0, i),
                  load_tile(rest, 12, 9, i), mean);
-  sum = add_edge(sum, inverse, normal, now.second, load_tile3(rest, 12, 3, i), load_tile(weights, 3, 1, i),
+  sum = add_edge(sum, row.inverse, row.normal, now.second, load_tile3(rest, 12, 3, i), load_tile(weights, 3, 1, i),
                  load_tile(rest, 12, 10, i), mean);
-  sum = add_edge(sum, inverse, normal, now.third, load_tile3(rest, 12, 6, i), load_tile(weights, 3, 2, i),
+  sum = add_edge(sum, row.inverse, row.normal, now.third, load_tile3(rest, 12, 6, i), load_tile(weights, 3, 2, i),
                  load_tile(rest, 12, 11, i), mean);
   store_tile(length_weight(now.first, mean), next_weights, 3, 0, i);
   store_tile(length_weight(now.second, mean), next_weights, 3, 1, i);
@@ -116,7 +186,7 @@ kernel void place_corners(const int items, const int count, global const int* co
   const lane_index a = load_indices(corners, 3, 0, i), b = load_indices(corners, 3, 1, i),
                    c = load_indices(corners, 3, 2, i);
   const Vec3 shrink = load_tile3(rest, 22, 19, i);
-  const Round now = sides_between(positions, residues, a, b, c);
+  const Sides now = sides_between(positions, residues, a, b, c);
   const Sides relative = sides(scale3(shrink.x, now.first), scale3(shrink.y, now.second), scale3(shrink.z, now.third));
   store_sphericity(rest, relative, i, count, sums);
 }

@@ -72,4 +72,7 @@ Reals::Reals(const Queue& queue, Eigen::Index count)
 
 Ints::Ints(const Queue& queue, Eigen::Index count) : Buffer(queue, static_cast<std::size_t>(count), sizeof(int)) {}
 
+Ints::Ints(const Queue& queue, const std::vector<int>& list)
+    : Ints(queue, Eigen::Map<const Eigen::VectorXi>(list.data(), static_cast<Eigen::Index>(list.size()))) {}
+
 }  // namespace swage

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "context.h"
 
@@ -122,6 +123,7 @@ class Reals : public Buffer {
 class Ints : public Buffer {
  public:
   Ints(const Queue& queue, Eigen::Index count);
+  Ints(const Queue& queue, const std::vector<int>& list);
 
   template <typename Derived>
   Ints(const Queue& queue, const Eigen::DenseBase<Derived>& values, Layout layout = Layout::columns)

@@ -75,6 +75,10 @@ cl::Program Context::program(const std::string& stem) {
   return build(stem + ".cl", program_source(stem, arithmetic(stem)));
 }
 
+cl::Program Context::program_alone(const std::string& stem) {
+  return build(stem + ".cl", program_source(stem, {precision_, 1, in_host_memory_}));
+}
+
 cl::Program Context::program(const std::string& name, const std::string& text) {
   return build(name, program_source(name, text, arithmetic(name)));
 }

@@ -42,6 +42,9 @@ class Context {
   /// kernels/<stem>.cl with what it includes, built the first time it is asked for. Throws Unavailable with the log.
   cl::Program program(const std::string& stem);
 
+  /// The same with an element an item, on every device.
+  cl::Program program_alone(const std::string& stem);
+
   /// The same of a text that stands in no file: `name` stands for it in messages.
   cl::Program program(const std::string& name, const std::string& text);
 

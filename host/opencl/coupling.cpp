@@ -107,13 +107,14 @@ class OpenClCoupling final : public CouplingStep {
       : OpenClCoupling(Queue(context), rest, table_of(rest), round_triangles(rest)) {}
 
   void apply(const Transforms& transforms, Transforms& product) override {
+    check_rows("CouplingStep::apply", "transforms", transforms.rows(), triangles_);
     product.resize(triangles_, 9);
     const Visit visit(queue_, {&transforms_, &products_});
     transforms_.show(transforms);
     products_.lend(product);
     couple_.launch(triangles_, normal_weight_, regularizer_weight_, neighbours_, rest_, transforms_, products_);
     couple_crowded_.launch(crowded_, crowded_triangles_, offsets_, crowd_, crowd_shares_, transforms_, products_);
-    couple_corners_.launch(round_, round_, round_triangles_, corner_rest_, transforms_, products_);
+    couple_corners_.launch(round_, round_triangles_, corner_rest_, transforms_, products_);
     products_.take_back(product);
   }
 

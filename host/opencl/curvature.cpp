@@ -38,10 +38,6 @@ Eigen::MatrixXd places(const Positions& positions, double per_length, Precision 
   return table;
 }
 
-Eigen::Map<const Eigen::VectorXi> vector(const std::vector<int>& list) {
-  return {list.data(), static_cast<Index>(list.size())};
-}
-
 int neighbours_of(const Rest& rest, int v) {
   const auto at = static_cast<size_t>(v);
   const int count = rest.offsets[at + 1] - rest.offsets[at];
@@ -78,7 +74,7 @@ Slots slots_of(const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::V
     const Index item = k / lanes;
     auto lane = slots.col(k % lanes).segment(first[item], first[item + 1] - first[item]);
     lane.setConstant(v);
-    lane.segment(1, known) = vector(rest.neighbours).segment(rest.offsets[static_cast<size_t>(v)], known);
+    std::copy_n(rest.neighbours.begin() + rest.offsets[static_cast<size_t>(v)], known, lane.begin() + 1);
   }
   return slots;
 }

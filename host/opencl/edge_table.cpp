@@ -8,10 +8,6 @@ namespace {
 
 using Eigen::Index;
 
-Eigen::Map<const Eigen::VectorXi> vector(const std::vector<int>& list) {
-  return {list.data(), static_cast<Index>(list.size())};
-}
-
 class Maker {
  public:
   explicit Maker(const TransformStep::Rest& rest)
@@ -90,20 +86,17 @@ class Maker {
   }
 
   void list_crowded() {
-    std::vector<int> edges, offsets{0}, triangles;
+    table.offsets = {0};
     for (int e = 0; e < table.beside.rows(); ++e) {
       auto beside = table.beside.row(e);
       if (beside[0] == beside[1] ? more_.count(e) == 0 : paired_[static_cast<size_t>(e)]) continue;
-      edges.push_back(e);
-      triangles.push_back(beside[0]);
-      if (beside[1] != beside[0]) triangles.push_back(beside[1]);
-      triangles.insert(triangles.end(), more_[e].begin(), more_[e].end());
-      offsets.push_back(static_cast<int>(triangles.size()));
+      table.crowded.push_back(e);
+      table.triangles.push_back(beside[0]);
+      if (beside[1] != beside[0]) table.triangles.push_back(beside[1]);
+      table.triangles.insert(table.triangles.end(), more_[e].begin(), more_[e].end());
+      table.offsets.push_back(static_cast<int>(table.triangles.size()));
       beside[1] = beside[0];
     }
-    table.crowded = vector(edges);
-    table.offsets = vector(offsets);
-    table.triangles = vector(triangles);
   }
 
   const TransformStep::Rest& rest_;

@@ -1,5 +1,7 @@
-// What lies beside each edge, as kernels/transform.cl and crowded.cl read it.
+// What lies beside each edge, as kernels/transform.cl reads it.
 #pragma once
+
+#include <vector>
 
 #include "swage/steps.h"
 
@@ -15,7 +17,7 @@ struct EdgeTable {
   Rest rest;
 
   /// The few edges of which `beside` does not tell all, and their triangles at offsets[i] .. offsets[i + 1].
-  Eigen::VectorXi crowded, offsets, triangles;
+  std::vector<int> crowded, offsets, triangles;
   /// The pairs of triangles that are not in `beside`, and their edge, as `rest` has it.
   Ints2 pairs;
   Rest pair_rest;

@@ -41,17 +41,24 @@ std::string types(const Arithmetic& arithmetic) {
   const std::string lanes = alone ? "" : std::to_string(arithmetic.lanes);
   std::ostringstream text;
   if (scalar == "double" || host == "double") text << "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n";
-  text << "typedef " << scalar << " scalar;\ntypedef " << scalar << "4 scalar4;\n"
-       << "typedef " << host << " host_scalar;\ntypedef " << host << "4 host_scalar4;\n"
-       << "#define to_scalar4 convert_" << scalar << "4\n#define to_host4 convert_" << host << "4\n"
-       << "#define HOST_IS_EXACT " << (host == "double") << '\n'
-       << "#define LANES " << arithmetic.lanes << "\n#define GROUP " << kGroup << '\n'
-       << "typedef " << scalar << lanes << " lanes;\ntypedef " << host << lanes << " host_lanes;\n"
-       << "#define to_lanes convert_" << scalar << lanes << "\n#define to_host_lanes convert_" << host << lanes << '\n'
-       << "typedef int" << lanes
-       << " lane_index;\n"
-       // Comparing vectors gives integers of the scalar's size.
-       << "typedef " << (alone || single ? "int" : "long") << lanes << " lane_mask;\n";
+  auto type = [&](const std::string& of, const std::string& name) { text << "typedef " << of << ' ' << name << ";\n"; };
+  auto define = [&](const std::string& name, const auto& as) { text << "#define " << name << ' ' << as << '\n'; };
+  type(scalar, "scalar");
+  type(scalar + '4', "scalar4");
+  type(host, "host_scalar");
+  type(host + '4', "host_scalar4");
+  type(scalar + lanes, "lanes");
+  type(host + lanes, "host_lanes");
+  type("int" + lanes, "lane_index");
+  // Comparing vectors gives integers of the scalar's size.
+  type((alone || single ? "int" : "long") + lanes, "lane_mask");
+  define("to_scalar4", "convert_" + scalar + '4');
+  define("to_host4", "convert_" + host + '4');
+  define("to_lanes", "convert_" + scalar + lanes);
+  define("to_host_lanes", "convert_" + host + lanes);
+  define("HOST_IS_EXACT", host == "double" ? 1 : 0);
+  define("LANES", arithmetic.lanes);
+  define("GROUP", kGroup);
   return text.str();
 }
 

@@ -16,10 +16,6 @@ double extent(const Positions& vertices) {
 
 double largest(const Eigen::VectorXd& values) { return values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff(); }
 
-Eigen::VectorXi offsets_of(const PairsRest& rest) {
-  return Eigen::Map<const Eigen::VectorXi>(rest.offsets.data(), static_cast<Index>(rest.offsets.size()));
-}
-
 /// w_p a_p
 Positions weighted_edges(const PairsRest& rest, const PairScales& scales) {
   Positions edges(rest.pairs.rows(), 3);
@@ -52,9 +48,10 @@ Pairs::Pairs(const Queue& queue, const PairsRest& rest, const char* stem)
 
 Pairs::Pairs(const Queue& queue, const PairsRest& rest, const char* stem, const PairScales& scales)
     : queue_(queue),
+      vertices_(rest.vertices.rows()),
       per_length_(scales.per_length),
       elements_{static_cast<int>(elements_of(rest)), queue.context->lanes(stem)},
-      offsets_(queue, offsets_of(rest)),
+      offsets_(queue, rest.offsets),
       pairs_(queue, rest.pairs, Layout::rows),
       edges_(queue, weighted_edges(rest, scales), Layout::rows),
       normals_(queue, weighted_normals(rest, scales), Layout::rows),

@@ -22,10 +22,13 @@ class Pairs {
  public:
   Pairs(const Queue& queue, const PairsRest& rest, const char* stem);
 
-  /// What `kernel` fits to the pairs now, a row an element; `of_element` are arguments before the positions.
+  /// What `kernel` fits to the pairs now, a row an element, for `function` of the step; `of_element` are arguments
+  /// before the positions.
   template <typename... OfElement>
-  void fit(Kernel& kernel, const Positions& positions, const Positions& targets, Transforms& result,
-           const OfElement&... of_element) {
+  void fit(const char* function, Kernel& kernel, const Positions& positions, const Positions& targets,
+           Transforms& result, const OfElement&... of_element) {
+    check_rows(function, "positions", positions.rows(), vertices_);
+    check_rows(function, "targets", targets.rows(), normals_.size() / 3);
     result.resize(elements_.count, 9);
     const Visit visit(queue_, {&positions_, &targets_, &result_});
     show(positions, targets);
@@ -39,11 +42,13 @@ class Pairs {
 
  private:
   Pairs(const Queue& queue, const PairsRest& rest, const char* stem, const PairScales& scales);
+  using Index = Eigen::Index;
   void show(const Positions& positions, const Positions& targets);
   /// What is left to scale of the positions that kernels see.
   double per_length_now() const { return queue_.context->in_host_memory() ? per_length_ : 1; }
 
   Queue queue_;
+  Index vertices_;
   double per_length_;
   LaneItems elements_;
   Ints offsets_, pairs_;

@@ -11,7 +11,7 @@ class OpenClRotation final : public RotationStep {
       : pairs_(queue, rest, "rotation"), fit_(queue, "rotation", "fit_rotations") {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& rotations) override {
-    pairs_.fit(fit_, positions, targets, rotations);
+    pairs_.fit("RotationStep::fit", fit_, positions, targets, rotations);
   }
 
  private:

@@ -36,7 +36,7 @@ class OpenClSimilarity final : public SimilarityStep {
         fit_(queue, "similarity", "fit_similarities") {}
 
   void fit(const Positions& positions, const Positions& targets, Transforms& similarities) override {
-    pairs_.fit(fit_, positions, targets, similarities, inverse_spreads_);
+    pairs_.fit("SimilarityStep::fit", fit_, positions, targets, similarities, inverse_spreads_);
   }
 
  private:

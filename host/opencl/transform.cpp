@@ -28,14 +28,23 @@ Positions initial_weights(const Rest& rest) {
 }
 
 /// Where a triangle has each edge's weight, in tiles.
-Eigen::VectorXi weight_places(const EdgeTable& table, const LaneItems& triangles) {
-  return table.first_corners.unaryExpr([&](int corner) { return triangles.tile_place(corner / 3, corner % 3, 3); });
+Eigen::VectorXi weight_places(const EdgeTable& table) {
+  return table.first_corners.unaryExpr(
+      [](int corner) { return static_cast<int>(LaneItems::tile_place(corner / 3, corner % 3, 3)); });
 }
 
-Eigen::Matrix<int, Eigen::Dynamic, 3> beside(const EdgeTable& table, const LaneItems& triangles) {
+/// As fit_edges reads it.
+Eigen::Matrix<int, Eigen::Dynamic, 3> beside(const EdgeTable& table) {
   Eigen::Matrix<int, Eigen::Dynamic, 3> all(table.beside.rows(), 3);
-  all << table.beside, weight_places(table, triangles);
+  all << table.beside, weight_places(table);
   return all;
+}
+
+/// Rows of twelve, whose first nine are the inverses' to come.
+Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> beside_no_inverses(const Positions& normals) {
+  Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> rows(normals.rows(), 12);
+  rows << Transforms::Zero(normals.rows(), 9), normals;
+  return rows;
 }
 
 class OpenClTransform final : public TransformStep {
@@ -46,6 +55,7 @@ class OpenClTransform final : public TransformStep {
   void reset() override { placed_ = false; }
 
   void fit_edges(const Transforms& transforms, EdgeQuadratics& quadratics) override {
+    check_rows("TransformStep::fit_edges", "transforms", transforms.rows(), triangles_.count);
     quadratics.blocks.resize(edges_.count, 6);
     quadratics.right_hand_sides.resize(edges_.count, 3);
     quadratics.target_lengths.resize(edges_.count);
@@ -54,10 +64,10 @@ class OpenClTransform final : public TransformStep {
     blocks_.lend(quadratics.blocks);
     sides_.lend(quadratics.right_hand_sides);
     targets_.lend(quadratics.target_lengths);
-    invert_.launch(triangles_.items(), triangles_.count, transforms_, inverses_, inverse_sums_.of_items());
+    invert_.launch(triangles_.items(), triangles_.count, transforms_, triangle_rows_, inverse_sums_.of_items());
     fit_edges_.launch(edges_.items(), edges_.count, per_length(constants_.normal_weight),
-                      per_length(constants_.scale_weight), beside_, edge_rest_, weights(), normals_, transforms_,
-                      inverses_, blocks_, sides_, targets_, edge_sums_.of_items());
+                      per_length(constants_.scale_weight), beside_, edge_rest_, weights(), transforms_, triangle_rows_,
+                      blocks_, sides_, targets_, edge_sums_.of_items());
     if (crowds_) launch_crowds();
     map_corners_.launch(round_.items(), round_.count, round_triangles_, corner_rest_, transforms_,
                         mapped_sums_.of_items());
@@ -70,12 +80,13 @@ class OpenClTransform final : public TransformStep {
   }
 
   Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) override {
+    check_rows("TransformStep::fit_transforms", "positions", positions.rows(), vertices_);
     right_hand_sides.resize(triangles_.count, 9);
     const Visit visit(queue_, {&positions_, &right_hand_sides_});
     show(positions);
     right_hand_sides_.lend(right_hand_sides);
     fit_triangles_.launch(triangles_.items(), triangles_.count, constants_.regularizer_weight,
-                          constants_.mean_edge_length, triangle_corners_, positions_, residues_, inverses_, normals_,
+                          constants_.mean_edge_length, triangle_corners_, positions_, residues_, triangle_rows_,
                           triangle_edges_, weights(), next_weights_, right_hand_sides_, triangle_sums_.of_items());
     place_corners_.launch(round_.items(), round_.count, corners_, corner_rest_, positions_, residues_,
                           corner_sums_.of_items());
@@ -91,22 +102,22 @@ class OpenClTransform final : public TransformStep {
       : queue_(queue),
         constants_{rest.mean_edge_length, rest.normal_weight, rest.connect_weight, rest.scale_weight,
                    rest.regularizer_weight},
+        vertices_(rest.vertices.rows()),
         triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
         edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
         round_{static_cast<int>(round.triangles.size()), queue.context->lanes("transform")},
-        beside_(queue, edges_.tiles(beside(table, triangles_))),
+        beside_(queue, edges_.tiles(beside(table))),
         triangle_corners_(queue, triangles_.tiles(rest.triangles)),
         round_triangles_(queue, round_.tiles(round.triangles)),
         corners_(queue, round_.tiles(round.corners)),
         edge_rest_(queue, edges_.tiles(table.rest)),
-        normals_(queue, rest.normals, Layout::rows),
         triangle_edges_(queue, triangles_.tiles(table.of_triangles)),
         corner_rest_(queue, round_.tiles(round.rest)),
         initial_weights_(queue, triangles_.tiles(initial_weights(rest))),
         current_weights_(queue, initial_weights_.size()),
         next_weights_(queue, initial_weights_.size()),
-        inverses_(queue, Index{9} * triangles_.count),
-        residues_(queue, queue.context->in_host_memory() ? 0 : rest.vertices.size()),
+        triangle_rows_(queue, 12 * triangles_.padded()),
+        residues_(queue, needs_residues() ? rest.vertices.size() : 0),
         transforms_(queue, Index{9} * triangles_.count),
         blocks_(queue, Index{6} * edges_.count),
         sides_(queue, Index{3} * edges_.count),
@@ -118,22 +129,23 @@ class OpenClTransform final : public TransformStep {
         mapped_sums_(queue, round_.items()),
         triangle_sums_(queue, triangles_.items()),
         corner_sums_(queue, round_.items()) {
-    if (table.crowded.size() != 0 || table.pairs.rows() != 0) crowds_.emplace(queue, table, triangles_);
+    triangle_rows_.upload(beside_no_inverses(rest.normals), Layout::rows);
+    if (!table.crowded.empty() || table.pairs.rows() != 0) crowds_.emplace(queue, table);
   }
 
   /// Where more than two triangles meet.
   struct Crowds {
-    Crowds(const Queue& queue, const EdgeTable& table, const LaneItems& of_triangles)
+    Crowds(const Queue& queue, const EdgeTable& table)
         : edges(queue, table.crowded),
           offsets(queue, table.offsets),
           triangles(queue, table.triangles),
           pairs(queue, table.pairs, Layout::rows),
-          weight_places(queue, swage::weight_places(table, of_triangles)),
+          weight_places(queue, swage::weight_places(table)),
           pair_rest(queue, table.pair_rest, Layout::rows),
-          edge_terms(queue, table.crowded.size()),
-          pair_terms(queue, table.pairs.size()),
-          fit_crowded_edges(queue, "crowded", "fit_crowded_edges"),
-          compare_pairs(queue, "crowded", "compare_pairs") {}
+          edge_terms(queue, edges.size()),
+          pair_terms(queue, pairs.size()),
+          fit_crowded_edges(queue, queue.context->program_alone("transform"), "fit_crowded_edges"),
+          compare_pairs(queue, queue.context->program_alone("transform"), "compare_pairs") {}
 
     Ints edges, offsets, triangles, pairs, weight_places;
     Reals pair_rest, edge_terms, pair_terms;
@@ -144,7 +156,7 @@ class OpenClTransform final : public TransformStep {
     Crowds& c = *crowds_;
     c.fit_crowded_edges.launch(c.edges.size(), per_length(constants_.normal_weight),
                                per_length(constants_.scale_weight), c.edges, c.offsets, c.triangles, edge_rest_,
-                               c.weight_places, weights(), normals_, transforms_, inverses_, blocks_, sides_, targets_,
+                               c.weight_places, weights(), transforms_, triangle_rows_, blocks_, sides_, targets_,
                                c.edge_terms);
     c.compare_pairs.launch(c.pairs.size() / 2, c.pairs, c.pair_rest, transforms_, c.pair_terms);
   }
@@ -154,9 +166,13 @@ class OpenClTransform final : public TransformStep {
   /// The weights that the positions now asked for are placed with.
   const Reals& weights() const { return placed_ ? current_weights_ : initial_weights_; }
 
+  bool needs_residues() const {
+    return queue_.context->precision() == Precision::single && !queue_.context->in_host_memory();
+  }
+
   void show(const Positions& positions) {
     positions_.show(positions);
-    if (queue_.context->in_host_memory()) return;
+    if (!needs_residues()) return;
     residues_.upload(positions - positions.cast<float>().cast<double>(), Layout::rows);
   }
 
@@ -194,17 +210,18 @@ class OpenClTransform final : public TransformStep {
 
   Queue queue_;
   Constants constants_;
+  Index vertices_;
   LaneItems triangles_, edges_, round_;
   Energy energy_;
 
   // The rest shape.
   Ints beside_, triangle_corners_, round_triangles_, corners_;
-  Reals edge_rest_, normals_, triangle_edges_, corner_rest_;
+  Reals edge_rest_, triangle_edges_, corner_rest_;
   std::optional<Crowds> crowds_;
 
   Reals initial_weights_, current_weights_, next_weights_;
-  bool placed_ = false;  // Whether current_weights_ stand in for the initial.
-  Reals inverses_, residues_;
+  bool placed_ = false;             // Whether current_weights_ stand in for the initial.
+  Reals triangle_rows_, residues_;  // Of triangles, inverse and normal in a row.
   HostRows transforms_, blocks_, sides_, targets_, positions_, right_hand_sides_;
   Sums inverse_sums_, edge_sums_, mapped_sums_, triangle_sums_, corner_sums_;
 

@@ -3,11 +3,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "swage/error.h"
 #include "swage/mesh.h"
 
 namespace swage {
+
+/// Throws InvalidInput where an argument of a step has other rows than the step's rest shape. Every step asks this of
+/// what a call brings.
+inline void check_rows(const char* function, const char* argument, Eigen::Index rows, Eigen::Index due) {
+  if (rows == due) return;
+  throw InvalidInput(std::string(function) + ": " + argument + ": " + std::to_string(rows) +
+                     " rows, but the step has " + std::to_string(due));
+}
 
 /// #T × 9: a 3 × 3 matrix a row, row by row.
 using Transforms = Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>;

@@ -1,8 +1,7 @@
 // Lanes from and to arrays, in OpenCL C alone, after lanes.h and mat3.h. Item i has elements LANES i and those after.
 // Columns: entry k of element e at stride * k + e; the stride is a multiple of LANES, so that the last item's elements
 // beyond the count have room. Tiles: the same for GROUP elements after GROUP elements, so that what an item needs lies
-// close. Rows: at width * e + k; elements beyond the count are not there. Arrays of the host's numbers hold
-// `host_scalar`.
+// close. Rows: at width * e + k. Arrays of the host's numbers hold `host_scalar`.
 #ifndef ALWAYS_INLINE
 #define ALWAYS_INLINE __attribute__((always_inline))
 #endif
@@ -14,7 +13,7 @@
 #define VSTORE(v, i, a) (a)[i] = v
 #define LANE_NUMBERS 0
 #define GATHER(a, at) (a)[at]
-#define SCATTER(v, a, step) (a)[0] = v
+#define SCATTER(v, a, step) (a)[0 * (step)] = v
 #elif LANES == 8
 #define VLOAD(i, a) vload8((size_t)(i), a)
 #define VSTORE(v, i, a) vstore8(v, (size_t)(i), a)
@@ -92,68 +91,14 @@ INLINE real gather_host(global const host_scalar* a, lane_index at) { return to_
 INLINE Vec3 gather3(global const scalar* a, lane_index at) {
   return vec3(gather(a, 3 * at), gather(a + 1, 3 * at), gather(a + 2, 3 * at));
 }
-INLINE Mat3 gather9(global const scalar* a, lane_index at) {
-  return mat3(gather3(a, 3 * at), gather3(a + 3, 3 * at), gather3(a + 6, 3 * at));
-}
 INLINE Vec3 gather_host3(global const host_scalar* a, lane_index at) {
   return vec3(gather_host(a, 3 * at), gather_host(a + 1, 3 * at), gather_host(a + 2, 3 * at));
 }
-INLINE Mat3 gather_host9(global const host_scalar* a, lane_index at) {
-  return mat3(gather_host3(a, 3 * at), gather_host3(a + 3, 3 * at), gather_host3(a + 6, 3 * at));
-}
 
-/// What lies between three vertices, round from each to the next.
-typedef struct {
-  real first, second, third;
-} Gaps;
+/// An entry each to the rows of an item's elements, the first at `a`. There is room for whole items.
+INLINE void store_entries(real v, global scalar* a, int width) { SCATTER(v, a, width); }
 
-/// Along one axis. `residues` are what rounding took from positions that are not the host's own: differences of near
-/// positions stay exact.
-INLINE Gaps gaps_between(global const host_scalar* positions, global const scalar* residues, lane_index a, lane_index b,
-                         lane_index c) {
-  const host_lanes at_a = gather_exactly(positions, a), at_b = gather_exactly(positions, b);
-  const host_lanes at_c = gather_exactly(positions, c);
-  Gaps gaps;
-  gaps.first = to_lanes(at_b - at_a);
-  gaps.second = to_lanes(at_c - at_b);
-  gaps.third = to_lanes(at_a - at_c);
-  if (!HOST_IS_EXACT) {
-    const real of_a = gather(residues, a), of_b = gather(residues, b), of_c = gather(residues, c);
-    gaps.first += of_b - of_a;
-    gaps.second += of_c - of_b;
-    gaps.third += of_a - of_c;
-  }
-  return gaps;
-}
-
-/// A vector each.
-typedef struct {
-  Vec3 first, second, third;
-} Round;
-
-/// The sides from a to b to c to a.
-INLINE Round sides_between(global const host_scalar* positions, global const scalar* residues, lane_index a,
-                           lane_index b, lane_index c) {
-  const Gaps x = gaps_between(positions, residues, 3 * a, 3 * b, 3 * c);
-  const Gaps y = gaps_between(positions + 1, residues + 1, 3 * a, 3 * b, 3 * c);
-  const Gaps z = gaps_between(positions + 2, residues + 2, 3 * a, 3 * b, 3 * c);
-  Round round;
-  round.first = vec3(x.first, y.first, z.first);
-  round.second = vec3(x.second, y.second, z.second);
-  round.third = vec3(x.third, y.third, z.third);
-  return round;
-}
-
-/// An entry each to the rows of an item's elements, the first at `a`, of which there are so many.
-INLINE void store_entries(real v, global scalar* a, int width, int elements) {
-  if (elements == LANES) {
-    SCATTER(v, a, width);
-  } else {
-    scalar entries[LANES];
-    SCATTER(v, entries, 1);
-    for (int k = 0; k < elements; ++k) a[width * k] = entries[k];
-  }
-}
+/// The same to arrays of the host's, where there are so many elements and no room for more.
 INLINE void store_host_entries(real v, global host_scalar* a, int width, int elements) {
   const host_lanes of_host = to_host_lanes(v);
   if (elements == LANES) {
@@ -168,25 +113,4 @@ INLINE void store_host3(Vec3 v, global host_scalar* a, int width, int elements) 
   store_host_entries(v.x, a, width, elements);
   store_host_entries(v.y, a + 1, width, elements);
   store_host_entries(v.z, a + 2, width, elements);
-}
-
-/// Whole rows of item i's elements.
-INLINE void store_rows9(Mat3 m, global scalar* a, int i, int count) {
-  const int elements = elements_of(i, count);
-  a += 9 * LANES * i;
-  store_entries(m.x.x, a, 9, elements);
-  store_entries(m.x.y, a + 1, 9, elements);
-  store_entries(m.x.z, a + 2, 9, elements);
-  store_entries(m.y.x, a + 3, 9, elements);
-  store_entries(m.y.y, a + 4, 9, elements);
-  store_entries(m.y.z, a + 5, 9, elements);
-  store_entries(m.z.x, a + 6, 9, elements);
-  store_entries(m.z.y, a + 7, 9, elements);
-  store_entries(m.z.z, a + 8, 9, elements);
-}
-INLINE void store_host_rows9(Mat3 m, global host_scalar* a, int i, int count) {
-  const int elements = elements_of(i, count);
-  store_host3(m.x, a + 9 * LANES * i, 9, elements);
-  store_host3(m.y, a + 9 * LANES * i + 3, 9, elements);
-  store_host3(m.z, a + 9 * LANES * i + 6, 9, elements);
 }

@@ -1,9 +1,5 @@
 // Vectors and matrices from and to arrays, an item an element, in OpenCL C alone, after mat3.h. Columns: entry k of
 // element i of n at n * k + i. Rows: at width * i + k. Arrays of the host's numbers hold `host_scalar`.
-static inline Vec3 row3(global const real* a, int i) { return vec3(a[3 * i], a[3 * i + 1], a[3 * i + 2]); }
-static inline Mat3 row9(global const real* a, int i) {
-  return mat3(row3(a, 3 * i), row3(a, 3 * i + 1), row3(a, 3 * i + 2));
-}
 static inline Vec3 host_row3(global const host_scalar* a, int i) {
   return vec3((real)a[3 * i], (real)a[3 * i + 1], (real)a[3 * i + 2]);
 }
@@ -20,14 +16,6 @@ static inline void store_host_row9(Mat3 m, global host_scalar* a, int i) {
   store_host_row3(m.x, a, 3 * i);
   store_host_row3(m.y, a, 3 * i + 1);
   store_host_row3(m.z, a, 3 * i + 2);
-}
-
-/// Entry k of element i in tiles of `width` entries, see lane_memory.h; and k, k + 1, k + 2.
-static inline real tile(global const real* a, int width, int k, int i) {
-  return a[(i / GROUP * width + k) * GROUP + i % GROUP];
-}
-static inline Vec3 tile3(global const real* a, int width, int k, int i) {
-  return vec3(tile(a, width, k, i), tile(a, width, k + 1, i), tile(a, width, k + 2, i));
 }
 
 /// Of columns k, k + 1, k + 2.

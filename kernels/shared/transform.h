@@ -1,5 +1,5 @@
-// The transform step's maths (reshape paper, sections 3.3 and 4.2), in C99 ∩ C++, after symmetric.h. No
-// branches: a lane of a vector unit each.
+// The transform step's maths (reshape paper, sections 3.3 and 4.2), in C99 ∩ C++, after symmetric.h. No branches, or
+// for all lanes: a lane of a vector unit each.
 
 /// Of a triangle's transform. `damped` is 1 where it is too near singular to invert, else 0.
 typedef struct {
@@ -13,8 +13,8 @@ static inline real larger_of(real a, real b) { return a > b ? a : b; }
 /// would be noise. Only in single precision does rounding ever decide.
 static inline mask is_singular(Mat3 a, real determinant) {
   const real rounding = (real)(sizeof(scalar) == sizeof(float) ? 8e-7 : 16e-16);
-  const real box = sqrt(dot3(a.x, a.x) * dot3(a.y, a.y) * dot3(a.z, a.z));
-  return fabs(determinant) <= larger_of((real)1e-9, rounding * box);
+  const real box = dot3(a.x, a.x) * dot3(a.y, a.y) * dot3(a.z, a.z);
+  return determinant * determinant <= larger_of((real)1e-18, rounding * rounding * box);
 }
 
 /// (a' a + d I)^-1 a', d = 1e-6, without forming a' a, whose rounding would drown a small d: by cofactors c and
@@ -58,6 +58,15 @@ typedef struct {
   Vec3 side;
   real length, turned;
 } EdgeSum;
+
+static inline EdgeSum no_sides(void) {
+  const real none = (real)0;
+  EdgeSum sum;
+  sum.grams = sum.normals = diagonal3(none);
+  sum.side = vec3(none, none, none);
+  sum.length = sum.turned = none;
+  return sum;
+}
 
 /// `mapped`: the edge by the triangle's transform.
 static inline EdgeSum edge_side(Vec3 mapped, Mat3 inverse, Vec3 normal, Vec3 rest) {
@@ -124,16 +133,15 @@ static inline TriangleTerms no_edges(real regularizer_weight) {
   return terms;
 }
 
-/// Eqs. 20, 21 with the current length for the target's, 24, and 34 where `own` is 1, not 0. An edge of no length tilts
-/// nowhere.
+/// Eqs. 20, 21 with the current length for the target's, 24, and `part` of 34. An edge of no length tilts nowhere.
 static inline TriangleTerms add_edge(TriangleTerms terms, Mat3 inverse, Vec3 normal, Vec3 edge, Vec3 rest, real weight,
-                                     real own, real mean_edge_length) {
+                                     real part, real mean_edge_length) {
   const real squared = dot3(rest, rest), tilt = dot3(normal, edge), slope = tilt * tilt;
   const Vec3 miss = sub3(apply3(inverse, edge), rest), change = sub3(edge, rest);
   terms.right_hand_side = add_mat3(terms.right_hand_side, outer3(scale3((real)1 / mean_edge_length, edge), rest));
   terms.transform += weight * dot3(miss, miss) / squared;
   terms.normal += weight * sqrt(squared) / mean_edge_length * (slope / larger_of(dot3(edge, edge), (real)1e-30));
-  terms.scale += own * dot3(change, change);
+  terms.scale += part * dot3(change, change);
   return terms;
 }
 

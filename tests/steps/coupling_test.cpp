@@ -68,8 +68,9 @@ TEST(CouplingStep, KeepsIdentitiesUpToTheirOwnPull) {
   }
 }
 
-TEST(CouplingStep, LargeMeshesOnADevice) {
-  const TransformStep::Rest rest = rest_of(test::sheet(316));
+TEST(CouplingStep, AMillionTrianglesOnADevice) {
+  const TransformStep::Rest rest = rest_of(test::sheet(708));
+  ASSERT_GT(rest.triangles.rows(), 1'000'000);
   const Transforms transforms = random_transforms(rest.triangles.rows(), 2);
   const Transforms expected = product_by(*cpu_backend(), rest, transforms);
   for (const auto& [precision, tolerance] : {std::pair{Precision::twice, 1e-12}, {Precision::single, 2e-6}}) {

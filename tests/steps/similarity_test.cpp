@@ -102,6 +102,16 @@ TEST_P(SimilarityStepBy, IsOneWithoutEdgesAndNothingWhereEdgesVanish) {
   EXPECT_EQ(test::matrix(similarities, 1), Matrix3d::Zero());
 }
 
+TEST_P(SimilarityStepBy, ManyElements) {
+  if (!backend_) return;
+  const PairsRest rest = test::triangle_pairs(test::torus(1, 0.4, 1000, 500));
+  ASSERT_EQ(rest.offsets.size(), 1'000'001u);
+  const Transforms similarities = fit({"", rest, 2.5 * rest.vertices, Positions(0, 3)});
+  for (Index i = 0; i < similarities.rows(); i += 37) {
+    ASSERT_LT((test::matrix(similarities, i) - 2.5 * Matrix3d::Identity()).norm(), 1e-3) << "element " << i;
+  }
+}
+
 TEST_P(SimilarityStepBy, GivesTheSameBytesAgain) {
   if (!backend_) return;
   for (const test::PairsCase& of : test::pairs_cases()) EXPECT_EQ(fit(of), fit(of)) << of.name;

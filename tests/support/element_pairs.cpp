@@ -73,6 +73,18 @@ PairsRest triangle_pairs(const Mesh& mesh) {
   return rest_of(mesh, elements);
 }
 
+PairsRest tetrahedron_pairs(const Mesh& mesh) {
+  Mesh with_centre = mesh;
+  const int centre = static_cast<int>(mesh.positions.rows());
+  with_centre.positions.conservativeResize(centre + 1, 3);
+  with_centre.positions.row(centre) = mesh.positions.colwise().mean();
+  std::vector<std::vector<Pair>> elements;
+  for (const auto& t : mesh.triangles.rowwise()) {
+    elements.push_back({{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}, {t[0], centre}, {t[1], centre}, {t[2], centre}});
+  }
+  return rest_of(with_centre, elements);
+}
+
 PairsRest with_normals(PairsRest rest, unsigned seed) {
   const Index count = static_cast<Index>(rest.offsets.size()) - 1;
   rest.normals = unit_vectors(count, seed);
@@ -100,6 +112,9 @@ std::vector<PairsCase> pairs_cases() {
       moved_case("flat, with boundary", vertex_pairs(sheet(20))),
       moved_case("flat triangles", flat),
       moved_case("needles", vertex_pairs(stretched(sheet(20), {1, 1e-3, 1}))),
+      moved_case("tetrahedra", tetrahedron_pairs(sphere(1, 2))),
+      moved_case("flat tetrahedra", tetrahedron_pairs(sheet(8))),
+      moved_case("random", vertex_pairs({unit_vectors(torus().positions.rows(), 3), torus().triangles})),
       moved_case("one element", triangle_pairs(triangle)),
       moved_case("some elements empty", gaps),
       moved_case("none", triangle_pairs({Positions::Zero(1, 3), Triangles(0, 3)})),

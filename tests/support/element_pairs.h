@@ -9,9 +9,11 @@
 
 namespace swage::test {
 
-/// An element a vertex with the edges that leave it, or a triangle with its sides. Weights of 1.
+/// An element a vertex with the edges that leave it, a triangle with its sides, or a tetrahedron, from a triangle to
+/// the vertices' mean, with its six. Weights of 1.
 PairsRest vertex_pairs(const Mesh& mesh);
 PairsRest triangle_pairs(const Mesh& mesh);
+PairsRest tetrahedron_pairs(const Mesh& mesh);
 /// With normals of random directions and weights.
 PairsRest with_normals(PairsRest rest, unsigned seed = 5);
 /// A third of the weights negative.
@@ -25,8 +27,8 @@ struct PairsCase {
   Positions positions, targets;
 };
 
-/// Closed, with boundary, flat, needles, one element, empty elements, none, tiny, huge, far away, straight, mirrored,
-/// with normals, with negative weights.
+/// Closed, with boundary, flat, needles, tetrahedra, random, one element, empty elements, none, tiny, huge, far away,
+/// straight, mirrored, with normals, with negative weights.
 std::vector<PairsCase> pairs_cases();
 
 Eigen::Matrix3d matrix(const Transforms& transforms, Eigen::Index row);

@@ -1,6 +1,7 @@
 #include "rests.h"
 
 #include <cmath>
+#include <random>
 
 #include "measures.h"
 #include "plan.h"
@@ -25,6 +26,15 @@ Mesh stretched(Mesh mesh, const Eigen::Vector3d& factors) {
   return mesh;
 }
 
+/// A torus whose vertices lie anywhere.
+Mesh random_shape() {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Mesh mesh = torus();
+  mesh.positions = Positions::NullaryExpr(mesh.positions.rows(), 3, [&] { return uniform(random); });
+  return mesh;
+}
+
 TransformStep::Rest none() {
   TransformStep::Rest rest = rest_of({Positions::Zero(1, 3), Triangles(0, 3)});
   rest.mean_edge_length = 1;  // No edge has a mean.
@@ -46,6 +56,7 @@ std::vector<std::pair<std::string, TransformStep::Rest>> rest_families() {
           {"needles", rest_of(stretched(sheet(20), {1, 1e-3, 1}))},
           {"five triangles at an edge", rest_of(fan())},
           {"one triangle", rest_of(triangle)},
+          {"random", rest_of(random_shape())},
           {"none", none()},
           {"tiny", rest_of(transformed(box(), 1e-4, {0, 0, 0}))},
           {"huge", rest_of(transformed(box(), 1e4, {0, 0, 0}))}};
