@@ -77,7 +77,7 @@ const std::vector<int> kSizes = {10'000, 100'000, 1'000'000};
 
 /// Bytes per second, read and written, of the best of a few copies by all threads.
 double copy_bandwidth() {
-  static const double bandwidth = [] {
+  static const double kBandwidth = [] {
     const Eigen::VectorXf from = Eigen::VectorXf::Ones(1 << 25);
     Eigen::VectorXf to = Eigen::VectorXf::Zero(from.size());
     double best = 0;
@@ -90,7 +90,7 @@ double copy_bandwidth() {
     }
     return best;
   }();
-  return bandwidth;
+  return kBandwidth;
 }
 
 void repeat(benchmark::State& state, const Work& work, int elements) {
