@@ -123,7 +123,11 @@ double median(std::vector<double> values) {
 
 ReshapeResult solve_timed(const Model& model, bool as_published, double& seconds) {
   ReshapeOptions options = model.options;
-  options.refactor_every_pass = as_published;
+  if (as_published) {
+    options.solver = ReshapeSolver::published;
+    options.weights = ReshapeWeights::published();
+    options.refactor_every_pass = true;
+  }
   const Stopwatch watch(seconds);
   return reshape(model.mesh.positions, model.mesh.triangles, model.gesture, options);
 }

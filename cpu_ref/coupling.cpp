@@ -40,9 +40,9 @@ class CpuCoupling final : public CouplingStep {
     for (const int e : rest_.triangle_edges.row(t)) {
       const Vector3d vector = rest_.edge_vectors.row(e), direction = vector.normalized();
       sum += transform * vector * vector.transpose() / rest_.mean_edge_length;
-      sum += rest_.normal_weight * normal.dot(transform * direction) * normal * direction.transpose();
+      sum += rest_.transform_normal_weight * normal.dot(transform * direction) * normal * direction.transpose();
     }
-    if (rest_.sphericities[t] != 0) sum += rest_.sphericities[t] * corner_differences(t, transform);
+    if (rest_.sphericities[t] != 0) sum += rest_.transform_sphericity_factor * rest_.sphericities[t] * corner_differences(t, transform);
     return sum;
   }
 

@@ -17,7 +17,7 @@ namespace swage::cli {
 namespace {
 
 ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const BackendChoice& choice) {
-  ReshapeOptions options;
+  ReshapeOptions options = job.solver == "published" ? ReshapeOptions::published() : ReshapeOptions();
   options.feature_angle = job.feature_angle * std::numbers::pi / 180;
   options.finalise = !job.no_finalise;
   options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()));
@@ -96,7 +96,9 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("--json", job.json, "Report of the run; - for stdout")->type_name("FILE");
   const std::string group = "Method";
   app.add_option("--method", job.method, "Method (slippage)")->group(group)->check(CLI::IsMember({"slippage"}));
-  app.add_option("--solver", job.solver, "Solver (published)")->group(group)->check(CLI::IsMember({"published"}));
+  app.add_option("--solver", job.solver, "steady: whatever the resolution; published: as in the paper (steady)")
+      ->group(group)
+      ->check(CLI::IsMember({"steady", "published"}));
   app.add_option("--curvature", job.curvature, "Principal curvatures, instead of computing them")
       ->group(group)
       ->type_name("FILE.fk");

@@ -14,7 +14,7 @@ struct ReshapeJob {
   std::string output;  ///< Result mesh; empty for none, "-" for stdout.
   std::string json;    ///< Report; likewise.
   std::string method = "slippage";
-  std::string solver = "published";
+  std::string solver = "steady";
   std::string curvature;       ///< A .fk file; empty to compute.
   std::string straight;        ///< A file of straight chains; empty for none.
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.

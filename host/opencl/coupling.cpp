@@ -101,6 +101,13 @@ Table table_of(const Rest& rest) {
   return table;
 }
 
+/// As couple_corners reads it.
+Eigen::MatrixXd corner_rest(const Rest& rest, const RoundTriangles& round) {
+  Eigen::MatrixXd corners = round.rest.leftCols<RoundTriangles::kOfDirections>();
+  corners.rightCols<1>() *= rest.transform_sphericity_factor;
+  return corners;
+}
+
 class OpenClCoupling final : public CouplingStep {
  public:
   OpenClCoupling(const SharedContext& context, const Rest& rest)
@@ -121,7 +128,7 @@ class OpenClCoupling final : public CouplingStep {
  private:
   OpenClCoupling(const Queue& queue, const Rest& rest, const Table& table, const RoundTriangles& round)
       : queue_(queue),
-        normal_weight_(rest.normal_weight),
+        normal_weight_(rest.transform_normal_weight),
         regularizer_weight_(rest.regularizer_weight),
         triangles_(static_cast<int>(rest.triangles.rows())),
         crowded_(static_cast<int>(table.crowded.size())),
@@ -133,7 +140,7 @@ class OpenClCoupling final : public CouplingStep {
         round_triangles_(queue, round.triangles),
         rest_(queue, table.rest, Layout::rows),
         crowd_shares_(queue, table.crowd_shares, Layout::rows),
-        corner_rest_(queue, round.rest.leftCols<RoundTriangles::kOfDirections>()),
+        corner_rest_(queue, corner_rest(rest, round)),
         transforms_(queue, Index{triangles_} * 9),
         products_(queue, Index{triangles_} * 9) {}
 

@@ -59,6 +59,12 @@ void check_options(const ReshapeOptions& options, const Mesh& mesh) {
     throw InvalidInput("Reshape: options.feature_angle: not in [0, pi] radians");
   }
   if (options.pass_limit < 1) throw InvalidInput("Reshape: options.pass_limit: below 1");
+  if (!(options.movement > 0) || std::isinf(options.movement)) {
+    throw InvalidInput("Reshape: options.movement: not finite and above 0");
+  }
+  if (options.acceleration_window < 0 || options.acceleration_window > 50) {
+    throw InvalidInput("Reshape: options.acceleration_window: not in [0, 50]");
+  }
   if (!options.unit_box_curvatures) return;
   if (options.unit_box_curvatures->rows() != mesh.triangles.rows() || !options.unit_box_curvatures->allFinite()) {
     throw InvalidInput("Reshape: options.unit_box_curvatures: not a row of two finite numbers for each of the " +

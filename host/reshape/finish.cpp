@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRings = 4;
 constexpr double kDimple = std::numbers::pi * 10 / 180;  // Turn of a normal beside a handle, radians.
-constexpr double kHandleWeight = 100;
+constexpr double kPublishedHandleWeight = 100;           // Lets go of handles: the steady solver keeps its own.
 
 /// The rings of triangles around a vertex: each ring's share a vertex with the ring before.
 std::vector<std::vector<int>> rings_around(int vertex, const Triangles& triangles, const Lists& around) {
@@ -127,12 +127,12 @@ std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterat
   TransformStep::EdgeQuadratics quadratics;
   plan.options.backend->transform(rest)->fit_edges(rigid_outside(zone, iterate.transforms), quadratics);
   Holds handles = iterate.handles;
-  handles.weight = kHandleWeight;
-  const Holds outside = hold_outside(zone, rest.triangles, positions, plan.options.weights.handle);
+  if (plan.options.solver == ReshapeSolver::published) handles.weight = kPublishedHandleWeight;
+  const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
   VertexSystem& vertices = *plan.vertices;
   const Eigen::VectorXd sphericity = std::exchange(vertices.sphericity, sphericity_values(vertices.system, rest));
   Positions spread =
-      place_vertices(vertices, rest, quadratics, plan.straight, plan.options.weights.straightness, {handles, outside});
+      place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness, {handles, outside});
   vertices.sphericity = sphericity;
   return spread;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "anderson.h"
 #include "block_system.h"
 #include "measures.h"
 #include "stopwatch.h"
@@ -31,6 +32,12 @@ struct VertexSystem {
   Eigen::VectorXd sphericity;  ///< The matrix's values of the sphericity term alone.
 };
 
+/// Weights of the terms in each step.
+struct StepWeights {
+  double normal, sphericity, scale, handle, straightness;                           // Vertex step.
+  double connect, similarity, transform_normal, transform_sphericity, regularizer;  // Transform step.
+};
+
 struct ReshapePlan {
   ReshapeOptions options;
   Mesh mesh;  ///< As given, mesh units.
@@ -39,6 +46,7 @@ struct ReshapePlan {
   std::vector<StraightTriple> straight;
 
   // Filled by prepare().
+  StepWeights weights = {};
   TransformStep::Rest rest = {};
   std::unique_ptr<TransformStep> step = {};
   std::optional<VertexSystem> vertices = {};
@@ -50,6 +58,7 @@ struct ReshapePlan {
 
 /// One solve's state.
 struct Iterate {
+  Anderson acceleration{0};
   Holds handles;
   Transforms transforms;
   Positions before;             ///< As the last pass found them.
@@ -63,6 +72,10 @@ struct Iterate {
 // check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);
 void check_surface(const Mesh& mesh, const Edges& edges);
+
+// weights.cpp
+/// As the options' solver takes them on a mesh in the unit box.
+StepWeights step_weights(const ReshapeOptions& options, const Mesh& unit_mesh);
 
 // prepare.cpp
 std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
@@ -92,7 +105,7 @@ Transforms identities(Eigen::Index triangle_count);
 // energy.cpp
 /// The terms by name, weighted; their sum decides when to stop.
 std::map<std::string, double> energy_terms(const TransformStep::Energy& local, const Positions& positions,
-                                           const std::vector<StraightTriple>& straight, const ReshapeWeights& weights,
+                                           const std::vector<StraightTriple>& straight, const StepWeights& weights,
                                            const Holds& handles);
 double sum(const std::map<std::string, double>& terms);
 

@@ -88,7 +88,7 @@ Matrix9d triangle_block(const TransformStep::Rest& rest, Eigen::Index t) {
       block.block<3, 3>(3 * r, 3 * r) += e0 * e0.transpose() / rest.mean_edge_length;
       tilt.segment<3>(3 * r) = normal[r] * d;
     }
-    block += rest.normal_weight * tilt * tilt.transpose();
+    block += rest.transform_normal_weight * tilt * tilt.transpose();
   }
   if (rest.sphericities[t] == 0) return block;
   for (const Corner& corner : corners(rest, t)) {
@@ -97,7 +97,7 @@ Matrix9d triangle_block(const TransformStep::Rest& rest, Eigen::Index t) {
       difference.middleCols<3>(3 * r) = -corner.turn.col(r) * corner.toward_k.transpose();
       difference.row(r).segment<3>(3 * r) += corner.toward_j.transpose();
     }
-    block += rest.sphericities[t] * difference.transpose() * difference;
+    block += rest.transform_sphericity_factor * rest.sphericities[t] * difference.transpose() * difference;
   }
   return block;
 }
@@ -126,6 +126,7 @@ std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>
 
 TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,
                                const Curvatures& unit_box_curvatures) {
+  const StepWeights weights = step_weights(options, unit_mesh);
   TransformStep::Rest rest;
   rest.triangles = unit_mesh.triangles;
   rest.edges = edges.vertices;
@@ -134,16 +135,17 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   rest.edge_vectors = edge_vectors(rest.vertices, edges);
   rest.normals = unit_normals(rest.vertices, rest.triangles);
   rest.mean_edge_length = mean_edge_length(rest.vertices, rest.triangles);
-  rest.normal_weight = options.weights.normal;
-  rest.connect_weight = options.weights.connect;
-  rest.scale_weight = options.weights.scale;
-  rest.regularizer_weight = options.weights.regularizer;
+  rest.normal_weight = weights.normal;
+  rest.scale_weight = weights.scale;
+  rest.connect_weight = weights.connect;
+  rest.transform_normal_weight = weights.transform_normal;
+  rest.regularizer_weight = weights.regularizer;
+  if (weights.sphericity > 0) rest.transform_sphericity_factor = weights.transform_sphericity / weights.sphericity;
   rest.sphericities.resize(rest.triangles.rows());
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
-    rest.sphericities[t] =
-        options.weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1));
+    rest.sphericities[t] = weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1));
   }
-  add_pairs(rest, edges, options.feature_angle, options.weights.similarity);
+  add_pairs(rest, edges, options.feature_angle, weights.similarity);
   return rest;
 }
 

@@ -2,12 +2,14 @@
 #include <string>
 
 #include "alternate.h"
+#include "anderson.h"
 #include "plan.h"
 
 namespace swage {
 namespace {
 
 constexpr double kPrepared = 0.2;  // Of a whole call's progress.
+constexpr int kPlainPasses = 2;    // Far from the fixed point, and unlike those after: nothing to learn from.
 
 Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
   Holds handles{{}, Positions(static_cast<Eigen::Index>(gesture.targets.size()), 3), weight};
@@ -21,7 +23,8 @@ Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
 
 Iterate start(ReshapePlan& plan, const Gesture& gesture) {
   Iterate iterate;
-  iterate.handles = handles_of(gesture, plan.box, plan.options.weights.handle);
+  iterate.acceleration = Anderson(plan.options.acceleration_window);
+  iterate.handles = handles_of(gesture, plan.box, plan.weights.handle);
   iterate.transforms = identities(plan.mesh.triangles.rows());
   plan.step->reset();
   return iterate;
@@ -30,6 +33,11 @@ Iterate start(ReshapePlan& plan, const Gesture& gesture) {
 StopRule stop_rule(const ReshapePlan& plan) {
   StopRule stop;
   stop.pass_limit = plan.options.pass_limit;
+  if (plan.options.solver == ReshapeSolver::steady) {
+    stop.by_energy = false;
+    stop.movement = plan.options.movement * plan.rest.mean_edge_length;
+    return stop;
+  }
   stop.movement = plan.rest.mean_edge_length / 100;
   stop.energy_drop = 0.01 / static_cast<double>(plan.edges.vertices.rows());
   return stop;
@@ -40,12 +48,20 @@ double place(ReshapePlan& plan, Iterate& iterate, Positions& positions) {
   plan.step->fit_edges(iterate.transforms, iterate.quadratics);
   iterate.singular = std::max(iterate.singular, iterate.quadratics.singular);
   iterate.before = positions;
-  positions = place_vertices(*plan.vertices, plan.rest, iterate.quadratics, plan.straight,
-                             plan.options.weights.straightness, {iterate.handles});
+  positions = place_vertices(*plan.vertices, plan.rest, iterate.quadratics, plan.straight, plan.weights.straightness,
+                             {iterate.handles});
   const TransformStep::Energy local = plan.step->fit_transforms(positions, iterate.right_hand_sides);
-  iterate.energy_by_term.push_back(
-      energy_terms(local, positions, plan.straight, plan.options.weights, iterate.handles));
+  iterate.energy_by_term.push_back(energy_terms(local, positions, plan.straight, plan.weights, iterate.handles));
   return sum(iterate.energy_by_term.back());
+}
+
+/// The right-hand sides are those of the positions last placed; of a start combined from several they are made anew.
+Positions next_start(ReshapePlan& plan, Iterate& iterate, const Positions& start, const Positions& end) {
+  const Stopwatch watch(iterate.seconds["acceleration"]);
+  if (iterate.energy_by_term.size() < kPlainPasses) return end;
+  Positions next = iterate.acceleration.next(start, end);
+  plan.step->fit_transforms(next, iterate.right_hand_sides);
+  return next;
 }
 
 void fit(ReshapePlan& plan, Iterate& iterate) {
@@ -106,6 +122,7 @@ bool Reshape::prepare(const ProgressFn& progress) {
   const Curvatures curvatures = plan.options.unit_box_curvatures
                                     ? *plan.options.unit_box_curvatures
                                     : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
+  plan.weights = step_weights(plan.options, unit_mesh);
   plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
   plan.step = plan.options.backend->transform(plan.rest);
   if (!goes_on("order", 0.2)) return false;
@@ -127,9 +144,12 @@ ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress)
 
   Iterate iterate = start(plan, gesture);
   Positions positions = plan.rest.vertices;
-  result.report = alternate(
-      stop_rule(plan), after_preparation(progress), positions,
-      {[&](Positions& placed) { return place(plan, iterate, placed); }, [&](const Positions&) { fit(plan, iterate); }});
+  Alternation steps{[&](Positions& placed) { return place(plan, iterate, placed); },
+                    [&](const Positions&) { fit(plan, iterate); }};
+  if (plan.options.solver == ReshapeSolver::steady) {
+    steps.next = [&](const Positions& from, const Positions& to) { return next_start(plan, iterate, from, to); };
+  }
+  result.report = alternate(stop_rule(plan), after_preparation(progress), positions, steps);
   result.unfinished = plan.box.back(positions);
   if (plan.options.finalise && result.report.stop != Termination::cancelled) {
     if (const std::optional<Positions> spread = spread_dimples(plan, iterate, positions)) {

@@ -24,8 +24,8 @@ std::optional<Termination> ended(const StopRule& stop, const Report& report) {
   const size_t n = report.energies.size();
   if (report.passes >= stop.first_test && n >= 2) {
     const double drop = report.energies[n - 2] - report.energies[n - 1];
-    if (drop <= 0) return Termination::energy_rose;
-    if (drop < stop.energy_drop) return Termination::energy_settled;
+    if (stop.by_energy && drop <= 0) return Termination::energy_rose;
+    if (stop.by_energy && drop < stop.energy_drop) return Termination::energy_settled;
     if (report.movements.back() < stop.movement) return Termination::moved_little;
   }
   if (report.passes >= stop.pass_limit) return Termination::pass_limit;
@@ -36,13 +36,14 @@ std::optional<Termination> ended(const StopRule& stop, const Report& report) {
 
 Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& positions, const Alternation& steps) {
   Report report;
-  Positions last;
+  Positions start = positions, last;
   for (;;) {
     if (!goes_on(progress, stop, report)) {
       report.stop = Termination::cancelled;
       break;
     }
     last = positions;
+    positions = start;
     report.energy = steps.place(positions);
     if (!std::isfinite(report.energy)) {
       throw Unsolvable("alternate: the energy of pass " + std::to_string(report.passes) + " is not finite");
@@ -50,12 +51,13 @@ Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& po
     ++report.passes;
     report.best_pass = report.passes - 1;
     report.energies.push_back(report.energy);
-    report.movements.push_back(largest_movement(last, positions));
+    report.movements.push_back(largest_movement(start, positions));
     if (const std::optional<Termination> end = ended(stop, report)) {
       report.stop = *end;
       break;
     }
-    steps.fit(positions);
+    start = steps.next ? steps.next(start, positions) : positions;
+    steps.fit(start);
   }
   if (report.stop == Termination::energy_rose) {
     positions = last;

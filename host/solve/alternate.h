@@ -11,9 +11,12 @@ namespace swage {
 struct Alternation {
   std::function<double(Positions&)> place;    ///< The global step: moves the positions and returns their energy.
   std::function<void(const Positions&)> fit;  ///< The local step: fits everything else to the positions.
+  /// Where the next pass starts, after one that led from the first positions to the second; else where that ended.
+  std::function<Positions(const Positions&, const Positions&)> next = {};
 };
 
-/// Alternates from `positions` and leaves the best in them. Tests of StopRule are made between place and fit.
+/// Alternates from `positions` and leaves the best in them. Tests of StopRule are made between place and fit. A pass's
+/// movement is how far it moves a vertex from where the pass started.
 /// Fills stop, passes, best_pass, energy, energies and movements of the report.
 Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& positions, const Alternation& steps);
 

@@ -37,6 +37,7 @@ struct StopRule {
   int pass_limit = 100;    ///< At least 1.
   int first_test = 3;      ///< The pass, counted from 1, after which tests begin.
   double movement = 0;     ///< Largest vertex movement in a pass that counts as standing still, solver units.
+  bool by_energy = true;   ///< Whether an energy that rises or settles ends the passes.
   double energy_drop = 0;  ///< Smallest fall of the energy in a pass that counts as progress.
 };
 

@@ -17,29 +17,49 @@
 
 namespace swage {
 
+enum class ReshapeSolver {
+  steady,     ///< To the fixed point of a problem whose answer depends neither on the mesh's resolution nor on when
+              ///< passes stop: the paper's terms with other weights (host/reshape/steady.md).
+  published,  ///< The published alternation with its stop tests, which end it on the way to a fixed point.
+};
+
+/// "steady", "published".
+const char* to_string(ReshapeSolver solver);
+
 /// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box. Finite, none negative;
-/// handle and regularizer above 0.
+/// handle and regularizer above 0. The steady solver takes them as of a mesh of 10,000 equal triangles and scales them
+/// to the one given.
 struct ReshapeWeights {
-  double normal = 10;         ///< w_normal
-  double similarity = 1;      ///< of E_similarity
-  double connect = 1;         ///< of E_connect
-  double sphericity = 1;      ///< of E_sphericity
-  double scale = 1e-4;        ///< w_scale
-  double regularizer = 1e-4;  ///< w_reg
-  double handle = 1e5;        ///< w_constr of E_pos
-  double straightness = 1e5;  ///< w_constr of E_straight
+  double normal = 10;           ///< w_normal
+  double similarity = 1;        ///< of E_similarity
+  double connect = 1;           ///< of E_connect
+  double sphericity = 1;        ///< of E_sphericity
+  double scale = 1e-4;          ///< w_scale
+  double regularizer = 1e-3;    ///< w_reg
+  double handle = 2.5e5;        ///< w_constr of E_pos
+  double straightness = 2.5e5;  ///< w_constr of E_straight
+
+  /// The paper's: regularizer 1e-4, handle and straightness 1e5.
+  static ReshapeWeights published();
 };
 
 struct ReshapeOptions {
+  ReshapeSolver solver = ReshapeSolver::steady;
   ReshapeWeights weights;
   double feature_angle = std::numbers::pi * 105 / 180;  ///< Interior dihedral angle in radians, [0, pi]: surfaces
                                                         ///< beside a sharper edge stretch independently.
   std::optional<Curvatures> unit_box_curvatures;  ///< #T × 2, of the mesh scaled into the unit box; else computed.
   std::vector<std::vector<int>> straight_chains;  ///< Chains of vertices, joined by edges, that stay straight.
   int pass_limit = 100;                           ///< At least 1.
+  double movement = 1e-3;                         ///< Steady: in mean edge lengths, above 0. The farthest that one more
+                                                  ///< pass would move a vertex.
+  int acceleration_window = 5;                    ///< Steady: passes that the next start is made of; 0 for plain ones.
   bool finalise = true;                           ///< Spread dimples at handles (appendix A).
   bool refactor_every_pass = false;               ///< As published: the same result, slower. For comparison.
   std::shared_ptr<Backend> backend;               ///< Does the local steps; cpu_backend() where none is given.
+
+  /// The published solver with the published weights.
+  static ReshapeOptions published();
 };
 
 struct ReshapeResult {
@@ -65,7 +85,7 @@ class Reshape {
   /// matrix. The first solve does so where it was not done before. Returns false where `progress` cancelled.
   bool prepare(const ProgressFn& progress = {});
 
-  /// Moves the handles to their targets by the published alternation. Does not depend on earlier solves.
+  /// Moves the handles to their targets. Does not depend on earlier solves.
   /// Throws InvalidInput as check(gesture, positions, triangles) does, and Unsolvable where a system is singular.
   ReshapeResult solve(const Gesture& gesture, const ProgressFn& progress = {});
 

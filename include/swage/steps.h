@@ -36,14 +36,16 @@ class TransformStep {
     Eigen::VectorXi pair_edges;                                             ///< #P: that edge.
     Positions edge_vectors;                                                 ///< #E × 3, second vertex minus first.
     Positions normals;                                                      ///< #T × 3, unit.
-    Positions pair_opposites;           ///< #P × 3: unit vector between the vertices opposite the edge.
-    Eigen::VectorXd pair_similarities;  ///< #P: similarity weight.
-    Eigen::VectorXd sphericities;       ///< #T: sphericity weight (Gamma).
-    Positions vertices;                 ///< #V × 3, whose triangles' corners the sphericity term compares.
-    Eigen::VectorXd length_weights;     ///< #E to start with, or empty: from the rest lengths (eq. 6).
-    Eigen::VectorXd target_lengths;     ///< #E to keep, or empty: from the transforms.
-    double mean_edge_length = 0;        ///< L_avg
-    double normal_weight = 0, connect_weight = 0, scale_weight = 0, regularizer_weight = 0;
+    Positions pair_opposites;                    ///< #P × 3: unit vector between the vertices opposite the edge.
+    Eigen::VectorXd pair_similarities;           ///< #P: similarity weight.
+    Eigen::VectorXd sphericities;                ///< #T: sphericity weight (Gamma).
+    Positions vertices;                          ///< #V × 3, whose triangles' corners the sphericity term compares.
+    Eigen::VectorXd length_weights;              ///< #E to start with, or empty: from the rest lengths (eq. 6).
+    Eigen::VectorXd target_lengths;              ///< #E to keep, or empty: from the transforms.
+    double mean_edge_length = 0;                 ///< L_avg
+    double normal_weight = 0, scale_weight = 0;  ///< Of the vertex step.
+    double connect_weight = 0, transform_normal_weight = 0, regularizer_weight = 0;  ///< Of the transform step.
+    double transform_sphericity_factor = 1;  ///< Times the sphericity weight: of the transform step.
   };
 
   /// For each edge e the quadratic e' B e - 2 c' e of the transform, normal and scale terms, e the edge's vector.
@@ -54,11 +56,12 @@ class TransformStep {
     int singular = 0;  ///< Triangles whose transform is too near singular to invert: a damped inverse stands in.
   };
 
-  /// Terms of the energy, weighted but for transform_normal, with current lengths in place of target lengths.
+  /// Terms of the energy, weighted, with current lengths in place of target lengths. Without their weight come
+  /// transform_normal and the factor of transform_sphericity.
   struct Energy {
     double transform = 0, normal = 0, scale = 0, sphericity = 0;                    ///< Of the vertex step.
     double connect = 0, similarity = 0, transform_sphericity = 0, regularizer = 0;  ///< Of the transform step.
-    double transform_normal = 0;                                                    ///< The same, without its weight.
+    double transform_normal = 0;
   };
 
   virtual ~TransformStep() = default;

@@ -16,7 +16,7 @@ constexpr double kTolerance = 1e-6;  // Relative to the gradient's length.
 
 /// A small round shape with every term alive: curved, so that sphericity counts, and a straight chain.
 struct Case {
-  ReshapeOptions options;
+  ReshapeOptions options = ReshapeOptions::published();
   Mesh mesh = test::transformed(test::sphere(0.5, 1), 1, {0.5, 0.5, 0.5});
   Edges edges = edges_of(mesh.triangles);
   std::vector<StraightTriple> straight;

@@ -63,7 +63,7 @@ class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
   }
 
   Mesh mesh_;
-  ReshapeOptions options_;
+  ReshapeOptions options_ = ReshapeOptions::published();
   Gesture gesture_;
 };
 

@@ -62,7 +62,7 @@ TEST_P(ReferenceGesture, IsMetStepByStep) {
   const Expected& expected = GetParam();
   const std::string model = expected.model;
   const Mesh mesh = read_mesh(file(expected, model + ".obj")).mesh;
-  ReshapeOptions options;
+  ReshapeOptions options = ReshapeOptions::published();
   options.unit_box_curvatures =
       read_unit_box_curvatures(file(expected, model + ".fk"), static_cast<int>(mesh.triangles.rows()));
   if (std::filesystem::exists(file(expected, model + ".straight"))) {
