@@ -12,7 +12,7 @@ namespace swage {
 namespace {
 
 /// Dense blocks pay where the factor's columns are long, whatever the size: the simplicial factor was faster at 31
-/// entries a column, by half, and slower at 53 and beyond, 1.5 to 9 times.
+/// entries a column, by half, and slower at 53 and beyond, 1.6 to 12 times.
 FactorKind faster_kind(std::int64_t entries, std::int64_t columns) {
   return has_cholmod() && entries > 40 * columns ? FactorKind::supernodal : FactorKind::simplicial;
 }
