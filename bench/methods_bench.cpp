@@ -110,6 +110,13 @@ void transform_step(benchmark::State& state, const Model& model) {
   state.counters["factor_entries"] = static_cast<double>(parts.transforms.factor_entries());
 }
 
+void transform_factor(benchmark::State& state, const Model& model) {
+  Parts parts(model);
+  for (auto _ : state) parts.transforms.factor();
+  state.counters["unknowns"] = static_cast<double>(parts.transforms.unknowns());
+  state.counters["factor_entries"] = static_cast<double>(parts.transforms.factor_entries());
+}
+
 /// Seconds of the whole solves so far, factored once, by model.
 std::map<std::string, std::vector<double>>& whole_seconds() {
   static std::map<std::string, std::vector<double>> seconds;
@@ -161,6 +168,7 @@ void register_all() {
     };
     add("prepare", [&model](benchmark::State& state) { prepare(state, model); });
     add("vertex_step", [&model](benchmark::State& state) { vertex_step(state, model); });
+    add("transform_factor", [&model](benchmark::State& state) { transform_factor(state, model); });
     add("transform_step", [&model](benchmark::State& state) { transform_step(state, model); });
     add("solve", [&model](benchmark::State& state) { whole(state, model, false); })->Iterations(3)->UseManualTime();
     add("solve_as_published", [&model](benchmark::State& state) { whole(state, model, true); })

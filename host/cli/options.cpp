@@ -25,10 +25,20 @@ constexpr const char* kOpenCl = "ON";
 #else
 constexpr const char* kOpenCl = "OFF";
 #endif
+#ifdef SWAGE_CHOLMOD
+constexpr const char* kCholmod = "ON";
+// Apache-2.0 goes with version 3 of the GPL only.
+constexpr const char* kLicence =
+    "GPL-3.0-or-later, as CHOLMOD's supernodal factor (GPL-2.0-or-later) and METIS (Apache-2.0) are in; without them "
+    "MIT";
+#else
+constexpr const char* kCholmod = "OFF";
+constexpr const char* kLicence = "MIT";
+#endif
 
 std::string version_text() {
   return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
-         "\nlicence: MIT";
+         ", CHOLMOD " + kCholmod + "\nlicence: " + kLicence;
 }
 
 }  // namespace

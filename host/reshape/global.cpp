@@ -102,7 +102,7 @@ Transforms identities(Eigen::Index triangle_count) {
   return identity.replicate(triangle_count, 1);
 }
 
-Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides) {
+Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_sides) {
   const Eigen::Map<const Eigen::VectorXd> flat(right_hand_sides.data(), right_hand_sides.size());
   const Eigen::VectorXd solution = system.solve(flat);
   return Eigen::Map<const Transforms>(solution.data(), right_hand_sides.rows(), 9);

@@ -97,7 +97,7 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds);
 /// Minimises the transform step's quadratic (eq. 35).
-Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides);
+Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_sides);
 
 /// #T × 9 identity matrices.
 Transforms identities(Eigen::Index triangle_count);

@@ -1,11 +1,13 @@
 // A sparse symmetric positive definite system whose unknowns come in groups, such as the three of a vertex.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "factor.h"
 
 namespace swage {
 
@@ -17,9 +19,11 @@ namespace swage {
 /// place, and the factor reads them in place.
 class BlockSystem {
  public:
-  /// `couplings`: pairs of different groups that share a term, in any order, repeats allowed. Throws Unsolvable where
-  /// the factor would have more entries than int counts.
-  BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings);
+  /// `couplings`: pairs of different groups that share a term, in any order, repeats allowed. Without `kind` the factor
+  /// is the one that is faster at this size, of those that this build has. Throws Unsolvable where the factor would
+  /// have more entries than int counts.
+  BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings,
+              std::optional<FactorKind> kind = {});
 
   void set_zero() { values().setZero(); }
   /// All values of the matrix, to keep a constant part and start the next assembly from it.
@@ -32,22 +36,22 @@ class BlockSystem {
 
   /// Throws Unsolvable, naming the group, where the matrix is not positive definite.
   void factor();
-  /// The solution for a right-hand side of all groups one after the other. factor() comes first.
-  Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side) const;
+  /// The solutions for right-hand sides, a column each, of all groups one after the other. factor() comes first.
+  Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides);
 
   /// The matrix times a vector of all groups one after the other.
   Eigen::VectorXd times(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
 
   Eigen::Index unknowns() const { return matrix_.rows(); }
-  /// Entries of the factor below its diagonal.
-  Eigen::Index factor_entries() const { return factor_->matrixL().nestedExpression().nonZeros(); }
+  Eigen::Index factor_entries() const { return factor_->entries(); }
 
  private:
   /// Group after group as given ⇄ in the order of elimination.
-  Eigen::VectorXd ordered(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
-  Eigen::VectorXd as_given(const Eigen::VectorXd& ordered) const;
+  void into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::MatrixXd& ordered) const;
+  Eigen::MatrixXd as_given(const Eigen::MatrixXd& ordered) const;
   void order(int group_count, const std::vector<std::pair<int, int>>& couplings);
-  void check_factor() const;
+  /// Entries of the factor below its diagonal and on it, by blocks. Throws where int cannot count them.
+  std::int64_t expected_entries() const;
   void lay_out();
   /// Where the first entry of block (above, column's group) stands in each of the column's entries.
   int offset(int above, int group) const;
@@ -55,9 +59,10 @@ class BlockSystem {
   int width_;                            // Unknowns of a group.
   std::vector<int> place_;               // Group → its place in the order.
   std::vector<std::vector<int>> above_;  // For each place the places before it that it couples to, ascending.
-  Eigen::SparseMatrix<double> matrix_;   // Upper triangle, groups in order.
-  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Upper, Eigen::NaturalOrdering<int>>;
-  std::unique_ptr<Factor> factor_;  // Made and its pattern analysed by the first factor().
+  SparseMatrix matrix_;                  // Upper triangle, groups in order.
+  std::unique_ptr<Factor> factor_;
+  bool analyzed_ = false;
+  Eigen::MatrixXd columns_;  // Right-hand sides, then solutions, in order.
 };
 
 }  // namespace swage

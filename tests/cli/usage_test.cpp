@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "factor.h"
 #include "program.h"
 
 namespace swage::test {
@@ -69,7 +70,8 @@ TEST_F(Usage, HelpAndVersionOnEveryLevel) {
     EXPECT_EQ(told.code, 0);
     EXPECT_THAT(told.out, StartsWith("swage 0."));
     EXPECT_THAT(told.out, testing::ContainsRegex("OpenMP O(N|FF)"));
-    EXPECT_THAT(told.out, HasSubstr("licence: MIT"));
+    EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "CHOLMOD ON" : "CHOLMOD OFF"));
+    EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "licence: GPL-3.0-or-later" : "licence: MIT"));
   }
 }
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
+#include <optional>
 #include <random>
+#include <thread>
 
 #include "swage/error.h"
 
@@ -16,7 +19,7 @@ struct Dense {
 };
 
 /// The same random positive definite system, as blocks and dense.
-Dense random_system(int groups, int rows, unsigned seed) {
+Dense random_system(int groups, int rows, unsigned seed, std::optional<FactorKind> kind = {}) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(-1, 1);
   std::vector<std::pair<int, int>> couplings;
@@ -26,7 +29,7 @@ Dense random_system(int groups, int rows, unsigned seed) {
     }
   }
   const int width = 3 * rows;
-  Dense both{BlockSystem(groups, rows, couplings), Eigen::MatrixXd::Zero(groups * width, groups * width)};
+  Dense both{BlockSystem(groups, rows, couplings, kind), Eigen::MatrixXd::Zero(groups * width, groups * width)};
   for (const auto& [i, j] : couplings) {
     for (int r = 0; r < rows; ++r) {
       const Eigen::Matrix3d block = Eigen::Matrix3d::NullaryExpr([&] { return number(random); });
@@ -44,27 +47,127 @@ Dense random_system(int groups, int rows, unsigned seed) {
   return both;
 }
 
-class BlockSystemOfRows : public testing::TestWithParam<int> {};
+std::vector<FactorKind> kinds() {
+  if (!has_cholmod()) return {FactorKind::simplicial};
+  return {FactorKind::simplicial, FactorKind::supernodal};
+}
 
-TEST_P(BlockSystemOfRows, EqualsTheDenseSystem) {
-  Dense both = random_system(17, GetParam(), 1);
+class BlockSystemBy : public testing::TestWithParam<FactorKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, BlockSystemBy, testing::ValuesIn(kinds()), [](const auto& kind) {
+  return kind.param == FactorKind::supernodal ? "supernodal" : "simplicial";
+});
+
+void expect_equal(Dense& both) {
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(both.matrix.rows(), -1, 2);
   EXPECT_LT((both.system.times(x) - both.matrix * x).norm(), 1e-12 * (both.matrix * x).norm());
   both.system.factor();
   EXPECT_LT((both.system.solve(both.matrix * x) - x).norm(), 1e-12 * x.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(Widths, BlockSystemOfRows, testing::Values(1, 3));
-
-TEST(BlockSystem, AFactorBeyondIntIsRefused) {
-  constexpr int kSide = 800;
-  std::vector<std::pair<int, int>> couplings;
-  for (int i = 0; i < kSide * kSide; ++i) {
-    if (i % kSide != 0) couplings.emplace_back(i, i - 1);
-    if (i >= kSide) couplings.emplace_back(i, i - kSide);
-    if (i >= kSide && i % kSide != 0) couplings.emplace_back(i, i - kSide - 1);
+TEST_P(BlockSystemBy, EqualsTheDenseSystem) {
+  for (const int rows : {1, 3}) {
+    for (const int groups : {1, 2, 17, 300}) {
+      SCOPED_TRACE(testing::Message() << groups << " groups of " << rows << " rows");
+      Dense both = random_system(groups, rows, 1, GetParam());
+      expect_equal(both);
+    }
   }
-  EXPECT_THROW(BlockSystem(kSide * kSide, 3, couplings), Unsolvable);
+}
+
+TEST_P(BlockSystemBy, FactorsOtherValuesByTheSameAnalysis) {
+  Dense both = random_system(40, 3, 3, GetParam());
+  expect_equal(both);
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(both.matrix.rows());
+  const Eigen::VectorXd first = both.system.solve(x);
+  const Eigen::VectorXd values = both.system.values();
+  for (int g = 0; g < 40; ++g) both.system.add(g, 5 * Eigen::MatrixXd::Identity(9, 9));
+  both.matrix.diagonal().array() += 5;
+  expect_equal(both);
+  both.system.values() = values;
+  both.system.factor();
+  EXPECT_EQ(both.system.solve(x), first);
+}
+
+TEST_P(BlockSystemBy, SolvesManyColumnsAtOnce) {
+  Dense both = random_system(40, 1, 4, GetParam());
+  both.system.factor();
+  for (const int columns : {5, 1, 3}) {
+    const Eigen::MatrixXd x = Eigen::MatrixXd::Random(both.matrix.rows(), columns);
+    EXPECT_LT((both.system.solve(both.matrix * x) - x).norm(), 1e-12 * x.norm());
+  }
+}
+
+TEST_P(BlockSystemBy, DisconnectedGroups) {
+  BlockSystem system(5, 1, {{0, 3}}, GetParam());
+  for (int g = 0; g < 5; ++g) system.add(g, (g + 1) * Eigen::Matrix3d::Identity());
+  system.add(0, 3, 0, Eigen::Matrix3d::Identity());
+  system.factor();
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(15, 1, 2);
+  EXPECT_LT((system.solve(system.times(x)) - x).norm(), 1e-14);
+}
+
+TEST_P(BlockSystemBy, NoGroups) {
+  BlockSystem system(0, 3, {}, GetParam());
+  system.factor();
+  EXPECT_EQ(system.solve(Eigen::VectorXd()).size(), 0);
+  EXPECT_EQ(system.factor_entries(), 0);
+}
+
+TEST_P(BlockSystemBy, GoesOnAfterAFailure) {
+  Dense both = random_system(17, 1, 5, GetParam());
+  const Eigen::VectorXd values = both.system.values();
+  both.system.set_zero();
+  EXPECT_THROW(both.system.factor(), Unsolvable);
+  both.system.values() = values;
+  expect_equal(both);
+}
+
+TEST_P(BlockSystemBy, TheSameBytesFromTwoThreadsAtOnce) {
+  const auto solution = [] {
+    Dense both = random_system(400, 3, 6, GetParam());
+    both.system.factor();
+    return Eigen::VectorXd(both.system.solve(Eigen::VectorXd::Ones(both.matrix.rows())));
+  };
+  const Eigen::VectorXd alone = solution();
+  Eigen::VectorXd other;
+  std::thread thread([&] { other = solution(); });
+  EXPECT_EQ(solution(), alone);
+  thread.join();
+  EXPECT_EQ(other, alone);
+}
+
+std::vector<std::pair<int, int>> grid(int side) {
+  std::vector<std::pair<int, int>> couplings;
+  for (int i = 0; i < side * side; ++i) {
+    if (i % side != 0) couplings.emplace_back(i, i - 1);
+    if (i >= side) couplings.emplace_back(i, i - side);
+    if (i >= side && i % side != 0) couplings.emplace_back(i, i - side - 1);
+  }
+  return couplings;
+}
+
+TEST(BlockSystem, AFactorBeyondIntIsRefused) { EXPECT_THROW(BlockSystem(800 * 800, 3, grid(800)), Unsolvable); }
+
+/// However large the system, and so whatever factor and order are taken.
+TEST(BlockSystem, SolvesWhateverTheSize) {
+  for (const int side : {3, 30, 201}) {
+    const auto couplings = grid(side);
+    BlockSystem system(side * side, 1, couplings);
+    for (int g = 0; g < side * side; ++g) system.add(g, 7 * Eigen::Matrix3d::Identity());
+    for (const auto& [i, j] : couplings) system.add(i, j, 0, -Eigen::Matrix3d::Identity());
+    system.factor();
+    const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.unknowns(), -1, 1);
+    EXPECT_LT((system.solve(system.times(x)) - x).norm(), 1e-11 * x.norm());
+  }
+}
+
+TEST(BlockSystem, WithoutCholmodSaysSo) {
+  if (has_cholmod()) {
+    EXPECT_NO_THROW(BlockSystem(2, 1, {{0, 1}}, FactorKind::supernodal));
+  } else {
+    EXPECT_THROW(BlockSystem(2, 1, {{0, 1}}, FactorKind::supernodal), Unavailable);
+  }
 }
 
 TEST(BlockSystem, RestoresAConstantPart) {
@@ -78,11 +181,11 @@ TEST(BlockSystem, RestoresAConstantPart) {
   EXPECT_EQ(both.system.times(x), before);
 }
 
-TEST(BlockSystem, NamesTheGroupOfAZeroOrNegativePivot) {
+TEST_P(BlockSystemBy, NamesTheGroupOfAZeroOrNegativePivot) {
   for (const double pivot : {0.0, -1.0, std::nan("")}) {
-    BlockSystem system(3, 1, {});
+    BlockSystem system(3, 1, {}, GetParam());
     system.add(0, Eigen::Matrix3d::Identity());
-    system.add(1, pivot * Eigen::Matrix3d::Identity());
+    system.add(1, Eigen::Vector3d(1, pivot, 1).asDiagonal().toDenseMatrix());
     system.add(2, Eigen::Matrix3d::Identity());
     try {
       system.factor();

@@ -1,0 +1,146 @@
+// The supernodal factor (GPL, in CHOLMOD) and METIS's nested dissection.
+#include <Eigen/CholmodSupport>
+#include <cmath>
+#include <mutex>
+#include <string>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "factor.h"
+#include "swage/error.h"
+
+extern "C" {
+int openblas_get_num_threads();
+void openblas_set_num_threads(int);
+}
+
+namespace swage {
+namespace {
+
+/// While it lives CHOLMOD and OpenBLAS keep to the calling thread. Supernodes of meshes are small: CHOLMOD's four
+/// threads a loop double the time and worse, OpenBLAS's gain nothing. And the bytes are the same for any number of
+/// threads.
+class OneThread {
+ public:
+  OneThread() {
+    const std::lock_guard lock(mutex_);
+    if (alive_++ == 0) {
+      threads_before_ = openblas_get_num_threads();
+      openblas_set_num_threads(1);
+    }
+  }
+  ~OneThread() {
+    const std::lock_guard lock(mutex_);
+    if (--alive_ == 0) openblas_set_num_threads(threads_before_);
+#ifdef _OPENMP
+    omp_set_max_active_levels(levels_before_);
+#endif
+  }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  // OpenBLAS's setting is the process's: the first in sets it, the last out restores it.
+  static inline std::mutex mutex_;
+  static inline int alive_ = 0, threads_before_ = 1;
+#ifdef _OPENMP
+  const int levels_before_ = [] {
+    const int levels = omp_get_max_active_levels();
+    omp_set_max_active_levels(0);
+    return levels;
+  }();
+#endif
+};
+
+void check(const cholmod_common& common) {
+  if (common.status == CHOLMOD_OUT_OF_MEMORY) {
+    throw Unsolvable("factor: the memory does not suffice: take a coarser mesh");
+  }
+  if (common.status == CHOLMOD_TOO_LARGE) {
+    throw Unsolvable("factor: its entries are more than can be counted: take a coarser mesh");
+  }
+  if (common.status < CHOLMOD_OK) {
+    throw Unsolvable("factor: CHOLMOD refuses the matrix, status " + std::to_string(common.status));
+  }
+}
+
+class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper, Supernodal> {
+ public:
+  Supernodal() {
+    m_cholmod.supernodal = CHOLMOD_SUPERNODAL;
+    m_cholmod.final_asis = 1;
+    m_cholmod.print = 0;
+    m_cholmod.nmethods = 1;  // The order is the matrix's.
+    m_cholmod.method[0].ordering = CHOLMOD_NATURAL;
+  }
+  ~Supernodal() override {
+    for (cholmod_dense** workspace : {&solution_, &permuted_, &gathered_}) cholmod_free_dense(workspace, &m_cholmod);
+  }
+
+  void analyze(const SparseMatrix& matrix) override {
+    analyzePattern(matrix);
+    check(m_cholmod);
+  }
+
+  int factorize(const SparseMatrix& matrix) override {
+    const OneThread one_thread;
+    CholmodBase::factorize(matrix);
+    check(m_cholmod);
+    const int first = first_bad_pivot();
+    return first < 0 ? -1 : static_cast<const int*>(m_cholmodFactor->Perm)[first];
+  }
+
+  // Eigen's own would allocate a solution and two workspaces, and copy.
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns) override {
+    const OneThread one_thread;
+    cholmod_dense sides = Eigen::viewAsCholmod(columns);
+    cholmod_solve2(CHOLMOD_A, m_cholmodFactor, &sides, nullptr, &solution_, nullptr, &permuted_, &gathered_,
+                   &m_cholmod);
+    check(m_cholmod);
+    columns =
+        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution_->x), columns.rows(), columns.cols());
+  }
+
+  Eigen::Index entries() const override { return static_cast<Eigen::Index>(m_cholmodFactor->xsize); }
+
+ private:
+  /// LAPACK's factorisation may take an undefined pivot for a good one.
+  int first_bad_pivot() const {
+    const auto minor = static_cast<int>(m_cholmodFactor->minor);
+    const auto* begins = static_cast<const int*>(m_cholmodFactor->super);
+    const auto* rows = static_cast<const int*>(m_cholmodFactor->pi);
+    const auto* values = static_cast<const int*>(m_cholmodFactor->px);
+    for (size_t s = 0; s < m_cholmodFactor->nsuper; ++s) {
+      const double* pivot = static_cast<const double*>(m_cholmodFactor->x) + values[s];
+      for (int column = begins[s]; column < begins[s + 1]; ++column, pivot += rows[s + 1] - rows[s] + 1) {
+        if (column == minor || !(*pivot > 0 && std::isfinite(*pivot))) return column;
+      }
+    }
+    return -1;
+  }
+
+  cholmod_dense *solution_ = nullptr, *permuted_ = nullptr, *gathered_ = nullptr;
+};
+
+}  // namespace
+
+bool has_cholmod() { return true; }
+
+std::unique_ptr<Factor> supernodal_factor() { return std::make_unique<Supernodal>(); }
+
+std::vector<int> nested_dissection(const SparseMatrix& graph) {
+  static std::mutex one_at_a_time;  // METIS seeds std::rand and draws from it: two at once would draw by chance.
+  const std::lock_guard lock(one_at_a_time);
+  std::vector<int> order(static_cast<size_t>(graph.rows()));
+  cholmod_common common;
+  cholmod_start(&common);
+  common.print = 0;
+  cholmod_sparse view = Eigen::viewAsCholmod(graph.selfadjointView<Eigen::Upper>());
+  cholmod_metis(&view, nullptr, 0, 1, order.data(), &common);
+  cholmod_finish(&common);
+  check(common);
+  return order;
+}
+
+}  // namespace swage

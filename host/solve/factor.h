@@ -1,0 +1,38 @@
+// The Cholesky factor of a sparse symmetric positive definite matrix, whoever makes it.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+namespace swage {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Column by column, or by dense blocks of columns that share their rows.
+enum class FactorKind { simplicial, supernodal };
+
+/// Reads the matrix's upper triangle, whose columns stand in an order that fills the factor little. Several factors may
+/// work at once, each in one thread.
+class Factor {
+ public:
+  virtual ~Factor() = default;
+  virtual void analyze(const SparseMatrix& matrix) = 0;
+  /// Of a matrix with the analysed pattern. Returns the first column eliminated whose pivot is not positive, -1 where
+  /// all are.
+  virtual int factorize(const SparseMatrix& matrix) = 0;
+  /// Right-hand sides, a column each, become solutions.
+  virtual void solve(Eigen::Ref<Eigen::MatrixXd> columns) = 0;
+  /// Entries held for the factor.
+  virtual Eigen::Index entries() const = 0;
+};
+
+std::unique_ptr<Factor> simplicial_factor();
+
+/// Whether this build has CHOLMOD, without which the two below throw Unavailable.
+bool has_cholmod();
+std::unique_ptr<Factor> supernodal_factor();
+/// An order of the graph's nodes, first to last, that fills a factor little. METIS finds it, and reseeds std::rand.
+std::vector<int> nested_dissection(const SparseMatrix& graph);
+
+}  // namespace swage
