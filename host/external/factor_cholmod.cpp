@@ -1,6 +1,7 @@
 // The supernodal factor (GPL, in CHOLMOD) and METIS's nested dissection.
 #include <Eigen/CholmodSupport>
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
 #include <string>
 #ifdef _OPENMP
@@ -51,6 +52,19 @@ class OneThread {
     return levels;
   }();
 #endif
+};
+
+/// While it lives std::rand, which METIS seeds and draws from, has another state than the program's.
+class OwnRandom {
+ public:
+  OwnRandom() : before_(initstate(1, state_, sizeof state_)) {}
+  ~OwnRandom() { setstate(before_); }
+  OwnRandom(const OwnRandom&) = delete;
+  OwnRandom& operator=(const OwnRandom&) = delete;
+
+ private:
+  char state_[128];
+  char* before_;
 };
 
 void check(const cholmod_common& common) {
@@ -130,8 +144,9 @@ bool has_cholmod() { return true; }
 std::unique_ptr<Factor> supernodal_factor() { return std::make_unique<Supernodal>(); }
 
 std::vector<int> nested_dissection(const SparseMatrix& graph) {
-  static std::mutex one_at_a_time;  // METIS seeds std::rand and draws from it: two at once would draw by chance.
+  static std::mutex one_at_a_time;  // Two at once would draw by chance.
   const std::lock_guard lock(one_at_a_time);
+  const OwnRandom own_random;
   std::vector<int> order(static_cast<size_t>(graph.rows()));
   cholmod_common common;
   cholmod_start(&common);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kRings = 4;
 constexpr double kDimple = std::numbers::pi * 10 / 180;  // Turn of a normal beside a handle, radians.
-constexpr double kPublishedHandleWeight = 100;           // Lets go of handles: the steady solver keeps its own.
+constexpr double kPublishedHandleWeight = 100;
+constexpr double kLetGo = 0.1;  // Of a handle's weight. Less turns normals as before, more loses the handle.
 
 /// The rings of triangles around a vertex: each ring's share a vertex with the ring before.
 std::vector<std::vector<int>> rings_around(int vertex, const Triangles& triangles, const Lists& around) {
@@ -127,7 +128,8 @@ std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterat
   TransformStep::EdgeQuadratics quadratics;
   plan.options.backend->transform(rest)->fit_edges(rigid_outside(zone, iterate.transforms), quadratics);
   Holds handles = iterate.handles;
-  if (plan.options.solver == ReshapeSolver::published) handles.weight = kPublishedHandleWeight;
+  handles.weight =
+      plan.options.solver == ReshapeSolver::published ? kPublishedHandleWeight : kLetGo * plan.weights.handle;
   const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
   VertexSystem& vertices = *plan.vertices;
   const Eigen::VectorXd sphericity = std::exchange(vertices.sphericity, sphericity_values(vertices.system, rest));

@@ -32,7 +32,7 @@ std::unique_ptr<Factor> simplicial_factor();
 /// Whether this build has CHOLMOD, without which the two below throw Unavailable.
 bool has_cholmod();
 std::unique_ptr<Factor> supernodal_factor();
-/// An order of the graph's nodes, first to last, that fills a factor little. METIS finds it, and reseeds std::rand.
+/// An order of the graph's nodes, first to last, that fills a factor little. Found by METIS.
 std::vector<int> nested_dissection(const SparseMatrix& graph);
 
 }  // namespace swage

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "authors.h"
+#include "edit_measures.h"
 #include "opencl_device.h"
 #include "places.h"
 #include "swage/reshape.h"
@@ -27,25 +29,12 @@ class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
  protected:
   void SetUp() override {
     if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
-    const std::string model = GetParam().model;
-    const std::filesystem::path folder = test::shared("oracle/reshape/") / model;
-    mesh_ = read_mesh(folder / (model + ".obj")).mesh;
-    options_.unit_box_curvatures =
-        read_unit_box_curvatures(folder / (model + ".fk"), static_cast<int>(mesh_.triangles.rows()));
-    if (std::filesystem::exists(folder / (model + ".straight"))) {
-      options_.straight_chains =
-          read_straight_chains(folder / (model + ".straight"), static_cast<int>(mesh_.positions.rows()));
-    }
-    const std::vector<Gesture> gestures = read_gestures(folder / (model + ".deform"), mesh_.positions);
-    const auto found = std::find_if(gestures.begin(), gestures.end(),
-                                    [](const Gesture& gesture) { return gesture.label == GetParam().gesture; });
-    ASSERT_NE(found, gestures.end());
-    gesture_ = *found;
+    authors_ = test::authors_gesture(GetParam().model, GetParam().gesture, ReshapeOptions::published());
   }
 
   ReshapeResult result(std::shared_ptr<Backend> backend) {
-    options_.backend = std::move(backend);
-    return reshape(mesh_.positions, mesh_.triangles, gesture_, options_);
+    authors_.options.backend = std::move(backend);
+    return reshape(authors_.mesh.positions, authors_.mesh.triangles, authors_.gesture, authors_.options);
   }
 
   void expect_the_references(Precision precision, double tolerance) {
@@ -56,15 +45,12 @@ class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
     EXPECT_EQ(device.report.passes, expected.report.passes);
     EXPECT_EQ(device.report.best_pass, expected.report.best_pass);
     EXPECT_EQ(device.finalised, expected.finalised);
-    const double diagonal = box_diagonal(mesh_.positions);
-    const double deviation = (device.positions - expected.positions).rowwise().norm().maxCoeff() / diagonal;
+    const double deviation = test::deviation(expected.positions, device.positions).largest;
     EXPECT_LT(deviation, tolerance);
     RecordProperty("deviation_in_diagonals", std::to_string(deviation * 1e9) + "e-9");
   }
 
-  Mesh mesh_;
-  ReshapeOptions options_ = ReshapeOptions::published();
-  Gesture gesture_;
+  test::AuthorsGesture authors_;
 };
 
 TEST_P(ReferenceGestureOnADevice, IsTheSameInDouble) { expect_the_references(Precision::twice, 1e-9); }

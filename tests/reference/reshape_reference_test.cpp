@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "authors.h"
+#include "edit_measures.h"
 #include "measures.h"
 #include "places.h"
 #include "swage/reshape.h"
@@ -37,13 +39,10 @@ const Expected kGestures[] = {
     {"espresso", "def_v1", 36, 35, kMoved, 11.5729, 1.3e-3},
 };
 
-std::filesystem::path file(const Expected& expected, const std::string& name) {
-  return test::shared("oracle/reshape/") / std::string(expected.model) / name;
-}
-
 /// Their results are in the unit box.
-double deviation(const Expected& expected, const std::string& suffix, const Positions& rest, const Positions& result) {
-  const Positions theirs = read_mesh(file(expected, std::string(expected.gesture) + suffix)).mesh.positions;
+double largest_deviation(const Expected& expected, const std::string& suffix, const Positions& rest,
+                         const Positions& result) {
+  const Positions theirs = test::authors_result(expected.model, expected.gesture, suffix);
   const UnitBox box = unit_box(rest);
   return (box.into(result) - theirs).rowwise().norm().maxCoeff() / box_diagonal(box.into(rest));
 }
@@ -60,38 +59,24 @@ class ReferenceGesture : public testing::TestWithParam<Expected> {};
 TEST_P(ReferenceGesture, IsMetStepByStep) {
   if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
   const Expected& expected = GetParam();
-  const std::string model = expected.model;
-  const Mesh mesh = read_mesh(file(expected, model + ".obj")).mesh;
-  ReshapeOptions options = ReshapeOptions::published();
-  options.unit_box_curvatures =
-      read_unit_box_curvatures(file(expected, model + ".fk"), static_cast<int>(mesh.triangles.rows()));
-  if (std::filesystem::exists(file(expected, model + ".straight"))) {
-    options.straight_chains =
-        read_straight_chains(file(expected, model + ".straight"), static_cast<int>(mesh.positions.rows()));
-  }
-  const std::vector<Gesture> gestures = read_gestures(file(expected, model + ".deform"), mesh.positions);
-  const auto gesture =
-      std::find_if(gestures.begin(), gestures.end(), [&](const Gesture& g) { return g.label == expected.gesture; });
-  ASSERT_NE(gesture, gestures.end());
+  const auto [mesh, options, gesture] =
+      test::authors_gesture(expected.model, expected.gesture, ReshapeOptions::published());
 
-  const ReshapeResult result = reshape(mesh.positions, mesh.triangles, *gesture, options);
+  const ReshapeResult result = reshape(mesh.positions, mesh.triangles, gesture, options);
 
   EXPECT_EQ(result.report.passes, expected.passes);
   EXPECT_EQ(result.report.best_pass, expected.best_pass);
   EXPECT_EQ(result.report.stop, expected.stop);
   EXPECT_EQ(six_digits(result.report.energy), six_digits(expected.energy));
-  EXPECT_LT(deviation(expected, ".expected.obj", mesh.positions, result.positions), kPosition);
-  const bool fires = model == "phone";
+  EXPECT_LT(largest_deviation(expected, ".expected.obj", mesh.positions, result.positions), kPosition);
+  const bool fires = std::string(expected.model) == "phone";
   EXPECT_EQ(result.finalised, fires);
   if (fires) {
-    EXPECT_LT(deviation(expected, ".unfinished.obj", mesh.positions, result.unfinished), kPosition);
+    EXPECT_LT(largest_deviation(expected, ".unfinished.obj", mesh.positions, result.unfinished), kPosition);
   }
 
-  double handle_error = 0;
-  for (const auto& [vertex, target] : gesture->targets) {
-    handle_error = std::max(handle_error, (result.unfinished.row(vertex).transpose() - target).norm());
-  }
-  EXPECT_NEAR(handle_error / box_diagonal(mesh.positions), expected.handle_error, 0.05 * expected.handle_error);
+  EXPECT_NEAR(test::handle_error(mesh, gesture, result.unfinished), expected.handle_error,
+              0.05 * expected.handle_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Authors, ReferenceGesture, testing::ValuesIn(kGestures), [](const auto& named) {

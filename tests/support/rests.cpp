@@ -44,7 +44,8 @@ TransformStep::Rest none() {
 }  // namespace
 
 TransformStep::Rest rest_of(const Mesh& mesh, double curvatures) {
-  return rest_shape(ReshapeOptions::published(), mesh, edges_of(mesh.triangles), Curvatures::Constant(mesh.triangles.rows(), 2, curvatures));
+  return rest_shape(ReshapeOptions::published(), mesh, edges_of(mesh.triangles),
+                    Curvatures::Constant(mesh.triangles.rows(), 2, curvatures));
 }
 
 std::vector<std::pair<std::string, TransformStep::Rest>> rest_families() {

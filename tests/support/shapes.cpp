@@ -59,6 +59,14 @@ void subdivide(Builder& b) {
 
 }  // namespace
 
+Mesh subdivided(const Mesh& mesh) {
+  Builder b;
+  for (const auto& point : mesh.positions.rowwise()) b.points.emplace_back(point);
+  for (const auto& triangle : mesh.triangles.rowwise()) b.faces.emplace_back(triangle);
+  subdivide(b);
+  return b.mesh();
+}
+
 Mesh sphere(double radius, int subdivisions) {
   Builder b = icosahedron();
   for (int i = 0; i < subdivisions; ++i) subdivide(b);

@@ -16,6 +16,10 @@ Mesh box(const Eigen::Vector3d& size = {1, 1, 1}, int cells = 4);
 /// An open square sheet [0, 1]² at z = 0.
 Mesh sheet(int cells = 8);
 
+/// Each triangle in four, at the middles of its sides. Old vertices come first; the children of triangle t are 4 t to
+/// 4 t + 3, the middle one last.
+Mesh subdivided(const Mesh& mesh);
+
 /// All triangles of both, b's vertices after a's.
 Mesh joined(const Mesh& a, const Mesh& b);
 Mesh transformed(const Mesh& mesh, double scale, const Eigen::Vector3d& translation);

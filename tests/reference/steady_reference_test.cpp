@@ -1,0 +1,121 @@
+// The steady solver beside the authors' results: as good in every measure, whatever the resolution and the stop.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "authors.h"
+#include "edit_measures.h"
+#include "measures.h"
+#include "places.h"
+#include "shapes.h"
+
+namespace swage {
+namespace {
+
+struct Authors {
+  const char* model;
+  const char* gesture;
+};
+
+void PrintTo(const Authors& authors, std::ostream* out) { *out << authors.model << " " << authors.gesture; }
+
+const Authors kGestures[] = {
+    {"cylinder_1kF", "def_v0"}, {"cylinder_1kF", "def_v1"},  {"cylinder_1kF", "def_v2"},   {"cylinder_1kF", "def_v3"},
+    {"phone", "def_v1"},        {"cutlery_s26-1", "def_v1"}, {"e_car_extruded", "def_v1"}, {"espresso", "def_v1"},
+};
+
+std::string name_of(const testing::TestParamInfo<Authors>& named) {
+  std::string name = std::string(named.param.model) + "_" + named.param.gesture;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+ReshapeResult solved(const test::AuthorsGesture& authors) {
+  return reshape(authors.mesh.positions, authors.mesh.triangles, authors.gesture, authors.options);
+}
+
+class SteadyGesture : public testing::TestWithParam<Authors> {
+ protected:
+  void SetUp() override {
+    if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
+    authors_ = test::authors_gesture(GetParam().model, GetParam().gesture, {});
+  }
+
+  bool is(const std::string& model, const std::string& gesture) const {
+    return GetParam().model == model && GetParam().gesture == gesture;
+  }
+
+  test::AuthorsGesture authors_;
+};
+
+TEST_P(SteadyGesture, IsAsGoodAsThePublishedResult) {
+  const Mesh& rest = authors_.mesh;
+  const Positions published = unit_box(rest.positions).back(test::authors_result(GetParam().model, GetParam().gesture));
+
+  const ReshapeResult steady = solved(authors_);
+
+  EXPECT_EQ(steady.report.stop, Termination::moved_little);
+  const bool phone = is("phone", "def_v1"), lifted = is("cylinder_1kF", "def_v1");
+  EXPECT_LT(test::mean_normal_change(rest, steady.positions),
+            test::mean_normal_change(rest, published) + (phone ? 0.25 : 0.1));
+  EXPECT_LE(test::mean_stretch(rest, steady.positions), test::mean_stretch(rest, published));
+  EXPECT_LT(test::handle_error(rest, authors_.gesture, steady.positions),
+            std::max(2 * test::handle_error(rest, authors_.gesture, published), 0.005));
+  if (lifted) {  // The published radius grows by 7 %.
+    const double wide = steady.positions.col(0).maxCoeff() - steady.positions.col(0).minCoeff();
+    const double wide_at_rest = rest.positions.col(0).maxCoeff() - rest.positions.col(0).minCoeff();
+    EXPECT_NEAR(wide / wide_at_rest, 1, 0.05);
+  } else {
+    EXPECT_LT(test::deviation(published, steady.positions).mean, 0.01);
+  }
+}
+
+TEST_P(SteadyGesture, DoesNotDependOnTheStop) {
+  const Positions usual = solved(authors_).positions;
+  authors_.options.movement /= 10;
+  EXPECT_LT(test::deviation(usual, solved(authors_).positions).largest, 1e-3);
+}
+
+TEST_P(SteadyGesture, IsReachedByPlainPassesToo) {
+  authors_.options.finalise = false;
+  authors_.options.pass_limit = 1000;
+  authors_.options.movement = 1e-4;
+  const ReshapeResult accelerated = solved(authors_);
+  authors_.options.acceleration_window = 0;
+  const ReshapeResult plain = solved(authors_);
+  EXPECT_EQ(plain.report.stop, Termination::moved_little);
+  EXPECT_LT(accelerated.report.passes, plain.report.passes);
+  EXPECT_LT(test::deviation(plain.positions, accelerated.positions).largest, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Authors, SteadyGesture, testing::ValuesIn(kGestures), name_of);
+
+/// Curvatures and gesture inherited.
+test::AuthorsGesture refined(test::AuthorsGesture authors) {
+  authors.mesh = test::subdivided(authors.mesh);
+  Curvatures& curvatures = *authors.options.unit_box_curvatures;
+  const Curvatures coarse = curvatures;
+  curvatures.resize(4 * coarse.rows(), 2);
+  for (Eigen::Index t = 0; t < curvatures.rows(); ++t) curvatures.row(t) = coarse.row(t / 4);
+  return authors;
+}
+
+using SteadyRefined = SteadyGesture;
+
+TEST_P(SteadyRefined, OneSubdivisionChangesLittleTwoLittleMore) {
+  const Positions coarse = solved(authors_).positions;
+  const test::AuthorsGesture once = refined(authors_);
+  const test::Deviation by_one = test::deviation(coarse, solved(once).positions);
+  EXPECT_LT(by_one.mean, 0.005);
+  EXPECT_LT(by_one.largest, 0.015);
+  const test::Deviation by_two = test::deviation(coarse, solved(refined(once)).positions);
+  EXPECT_LT(by_two.mean, 0.01);
+  EXPECT_LT(by_two.largest, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Authors, SteadyRefined,
+                         testing::Values(Authors{"cylinder_1kF", "def_v0"}, Authors{"cylinder_1kF", "def_v1"}),
+                         name_of);
+
+}  // namespace
+}  // namespace swage
