@@ -83,6 +83,10 @@ void add_solve(Json& json, const Report& report, std::vector<std::string>& warni
   for (const auto& [term, energy] : report.energy_by_term) {
     json["energy_by_term"][term] = finite(energy, "energy_by_term " + term, warnings);
   }
+  json["passes"] = Json::array();
+  for (size_t i = 0; i < report.energies.size(); ++i) {
+    json["passes"].push_back({{"energy", report.energies[i]}, {"movement", report.movements[i]}});
+  }
 }
 
 void add_errors(Json& json, const Mesh& rest, const Gesture& gesture, const ReshapeResult& result,
@@ -118,6 +122,7 @@ Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& ges
                      {"solve", seconds.solve},
                      {"write", seconds.write},
                      {"total", seconds.total}};
+  for (const auto& [stage, spent] : result.report.seconds) json["seconds_by_stage"][stage] = spent;
   const Traffic traffic = backend.traffic();
   json["traffic"] = {{"uploaded_bytes", traffic.uploaded},
                      {"downloaded_bytes", traffic.downloaded},

@@ -82,8 +82,10 @@ std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>
                                              int vertex_count);
 TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,
                                const Curvatures& unit_box_curvatures);
-VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight);
-BlockSystem transform_system(const TransformStep::Rest& rest);
+/// Factored by `kind`, or by whatever is faster.
+VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
+                           std::optional<FactorKind> kind = {});
+BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind = {});
 
 // global.cpp
 /// The sphericity term as values of the vertex step's matrix.

@@ -149,21 +149,22 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   return rest;
 }
 
-VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight) {
+VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
+                           std::optional<FactorKind> kind) {
   std::vector<std::pair<int, int>> couplings;
   for (const auto& edge : rest.edges.rowwise()) couplings.emplace_back(edge[0], edge[1]);
   for (const StraightTriple& triple : straight) {
     if (triple.before != triple.after) couplings.emplace_back(triple.before, triple.after);
   }
-  VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings), {}};
+  VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings, kind), {}};
   vertices.sphericity = sphericity_values(vertices.system, rest);
   return vertices;
 }
 
-BlockSystem transform_system(const TransformStep::Rest& rest) {
+BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind) {
   std::vector<std::pair<int, int>> couplings;
   for (const auto& pair : rest.pairs.rowwise()) couplings.emplace_back(pair[0], pair[1]);
-  BlockSystem system(static_cast<int>(rest.triangles.rows()), 3, couplings);
+  BlockSystem system(static_cast<int>(rest.triangles.rows()), 3, couplings, kind);
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) system.add(static_cast<int>(t), triangle_block(rest, t));
   for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) {
     const Vector3d d = rest.edge_vectors.row(rest.pair_edges[p]).normalized(), o = rest.pair_opposites.row(p);

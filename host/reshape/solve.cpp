@@ -43,6 +43,12 @@ StopRule stop_rule(const ReshapePlan& plan) {
   return stop;
 }
 
+/// The published passes are never others, whatever a build has.
+std::optional<FactorKind> factor_kind(const ReshapeOptions& options) {
+  if (options.solver == ReshapeSolver::published) return FactorKind::simplicial;
+  return std::nullopt;
+}
+
 double place(ReshapePlan& plan, Iterate& iterate, Positions& positions) {
   const Stopwatch watch(iterate.seconds["vertex_step"]);
   plan.step->fit_edges(iterate.transforms, iterate.quadratics);
@@ -126,8 +132,9 @@ bool Reshape::prepare(const ProgressFn& progress) {
   plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
   plan.step = plan.options.backend->transform(plan.rest);
   if (!goes_on("order", 0.2)) return false;
-  plan.vertices = vertex_system(plan.rest, plan.straight);
-  BlockSystem transforms = transform_system(plan.rest);
+  const std::optional<FactorKind> kind = factor_kind(plan.options);
+  plan.vertices = vertex_system(plan.rest, plan.straight, kind);
+  BlockSystem transforms = transform_system(plan.rest, kind);
   if (!goes_on("factor", 0.4)) return false;
   transforms.factor();
   plan.transforms = std::move(transforms);
