@@ -33,6 +33,8 @@ class Counting {
 using real = Counting;
 using scalar = double;
 using mask = bool;
+using wide = Counting;
+wide to_wide(real number) { return number; }
 int any_lane(bool condition) { return condition ? 1 : 0; }
 // Each needs those before it.
 // clang-format off

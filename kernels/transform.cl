@@ -47,9 +47,16 @@ kernel void invert(const int items, const int count, global const host_scalar* t
 
 INLINE void store_quadratic(EdgeQuadratic q, int first, int elements, global host_scalar* blocks,
                             global host_scalar* sides, global host_scalar* targets) {
-  store_host4(four(q.block.xx, q.block.xy, q.block.xz, q.block.yy), blocks + 6 * first, 6, elements);
-  store_host4(four(q.block.xz, q.block.yy, q.block.yz, q.block.zz), blocks + 6 * first + 2, 6, elements);
-  store_host3(q.side, sides + 3 * first, 3, elements);
+  blocks += 6 * first, sides += 3 * first;
+  store_wide_entries(q.block.xx, blocks, 6, elements);
+  store_wide_entries(q.block.xy, blocks + 1, 6, elements);
+  store_wide_entries(q.block.xz, blocks + 2, 6, elements);
+  store_wide_entries(q.block.yy, blocks + 3, 6, elements);
+  store_wide_entries(q.block.yz, blocks + 4, 6, elements);
+  store_wide_entries(q.block.zz, blocks + 5, 6, elements);
+  store_wide_entries(q.side.x, sides, 3, elements);
+  store_wide_entries(q.side.y, sides + 1, 3, elements);
+  store_wide_entries(q.side.z, sides + 2, 3, elements);
   store_host_entries(q.target, targets + first, 1, elements);
 }
 

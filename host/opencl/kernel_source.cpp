@@ -48,14 +48,14 @@ std::string types(const Arithmetic& arithmetic) {
   type(host, "host_scalar");
   type(host + '4', "host_scalar4");
   type(scalar + lanes, "lanes");
-  type(host + lanes, "host_lanes");
+  type(host + lanes, "wide");
   type("int" + lanes, "lane_index");
   // Comparing vectors gives integers of the scalar's size.
   type((alone || single ? "int" : "long") + lanes, "lane_mask");
   define("to_scalar4", "convert_" + scalar + '4');
   define("to_host4", "convert_" + host + '4');
   define("to_lanes", "convert_" + scalar + lanes);
-  define("to_host_lanes", "convert_" + host + lanes);
+  define("to_wide", "convert_" + host + lanes);
   define("HOST_IS_EXACT", host == "double" ? 1 : 0);
   define("LANES", arithmetic.lanes);
   define("GROUP", kGroup);

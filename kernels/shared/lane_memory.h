@@ -84,7 +84,7 @@ INLINE real present_lanes(int i, int count) { return one_where(LANES * i + LANE_
 
 /// Entries at given places.
 INLINE real gather(global const scalar* a, lane_index at) { return (real)GATHER(a, at); }
-INLINE host_lanes gather_exactly(global const host_scalar* a, lane_index at) { return (host_lanes)GATHER(a, at); }
+INLINE wide gather_exactly(global const host_scalar* a, lane_index at) { return (wide)GATHER(a, at); }
 INLINE real gather_host(global const host_scalar* a, lane_index at) { return to_lanes(gather_exactly(a, at)); }
 
 /// Rows of given elements.
@@ -99,18 +99,15 @@ INLINE Vec3 gather_host3(global const host_scalar* a, lane_index at) {
 INLINE void store_entries(real v, global scalar* a, int width) { SCATTER(v, a, width); }
 
 /// The same to arrays of the host's, where there are so many elements and no room for more.
-INLINE void store_host_entries(real v, global host_scalar* a, int width, int elements) {
-  const host_lanes of_host = to_host_lanes(v);
+INLINE void store_wide_entries(wide v, global host_scalar* a, int width, int elements) {
   if (elements == LANES) {
-    SCATTER(of_host, a, width);
+    SCATTER(v, a, width);
   } else {
     host_scalar entries[LANES];
-    SCATTER(of_host, entries, 1);
+    SCATTER(v, entries, 1);
     for (int k = 0; k < elements; ++k) a[width * k] = entries[k];
   }
 }
-INLINE void store_host3(Vec3 v, global host_scalar* a, int width, int elements) {
-  store_host_entries(v.x, a, width, elements);
-  store_host_entries(v.y, a + 1, width, elements);
-  store_host_entries(v.z, a + 2, width, elements);
+INLINE void store_host_entries(real v, global host_scalar* a, int width, int elements) {
+  store_wide_entries(to_wide(v), a, width, elements);
 }

@@ -61,7 +61,7 @@ INLINE void scatter4(Four f, global scalar* a, int step) {
   store_entries(f.z, a + 2, step), store_entries(f.w, a + 3, step);
 }
 INLINE void scatter_host4(Four f, global host_scalar* a, int step) {
-  const host_lanes x = to_host_lanes(f.x), y = to_host_lanes(f.y), z = to_host_lanes(f.z), w = to_host_lanes(f.w);
+  const wide x = to_wide(f.x), y = to_wide(f.y), z = to_wide(f.z), w = to_wide(f.w);
   SCATTER(x, a, step), SCATTER(y, a + 1, step), SCATTER(z, a + 2, step), SCATTER(w, a + 3, step);
 }
 #endif

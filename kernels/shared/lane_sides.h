@@ -4,8 +4,8 @@
 /// Along one axis, from vertex a to b, b to c and c to a.
 INLINE Vec3 gaps_between(global const host_scalar* positions, global const scalar* residues, lane_index a, lane_index b,
                          lane_index c) {
-  const host_lanes at_a = gather_exactly(positions, a), at_b = gather_exactly(positions, b);
-  const host_lanes at_c = gather_exactly(positions, c);
+  const wide at_a = gather_exactly(positions, a), at_b = gather_exactly(positions, b);
+  const wide at_c = gather_exactly(positions, c);
   const Vec3 gaps = vec3(to_lanes(at_b - at_a), to_lanes(at_c - at_b), to_lanes(at_a - at_c));
   if (HOST_IS_EXACT) return gaps;
   const real of_a = gather(residues, a), of_b = gather(residues, b), of_c = gather(residues, c);

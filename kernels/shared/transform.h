@@ -52,18 +52,104 @@ static inline real length_weight(Vec3 edge, real mean_edge_length) {
   return larger_of((real)1, dot3(edge, edge) / (mean_edge_length * mean_edge_length));
 }
 
+/// In numbers as wide as the host's: a flattened triangle's inverse is so long one way that, squared, all that it says
+/// of the other ways would be lost to rounding in single precision.
+typedef struct {
+  wide x, y, z;
+} WideVec3;
+typedef struct {
+  wide xx, xy, xz, yy, yz, zz;
+} WideSymmetric;
+
+static inline WideVec3 wide3(Vec3 a) {
+  WideVec3 w;
+  w.x = to_wide(a.x);
+  w.y = to_wide(a.y);
+  w.z = to_wide(a.z);
+  return w;
+}
+
+static inline WideVec3 add_wide3(WideVec3 a, WideVec3 b) {
+  WideVec3 sum;
+  sum.x = a.x + b.x;
+  sum.y = a.y + b.y;
+  sum.z = a.z + b.z;
+  return sum;
+}
+static inline WideVec3 scale_wide3(wide s, WideVec3 a) {
+  WideVec3 scaled;
+  scaled.x = s * a.x;
+  scaled.y = s * a.y;
+  scaled.z = s * a.z;
+  return scaled;
+}
+
+static inline WideSymmetric add_wide(WideSymmetric a, WideSymmetric b) {
+  WideSymmetric sum;
+  sum.xx = a.xx + b.xx;
+  sum.xy = a.xy + b.xy;
+  sum.xz = a.xz + b.xz;
+  sum.yy = a.yy + b.yy;
+  sum.yz = a.yz + b.yz;
+  sum.zz = a.zz + b.zz;
+  return sum;
+}
+static inline WideSymmetric scale_wide(wide s, WideSymmetric a) {
+  WideSymmetric scaled;
+  scaled.xx = s * a.xx;
+  scaled.xy = s * a.xy;
+  scaled.xz = s * a.xz;
+  scaled.yy = s * a.yy;
+  scaled.yz = s * a.yz;
+  scaled.zz = s * a.zz;
+  return scaled;
+}
+static inline WideSymmetric wide_symmetric(Symmetric a) {
+  WideSymmetric w;
+  w.xx = to_wide(a.xx);
+  w.xy = to_wide(a.xy);
+  w.xz = to_wide(a.xz);
+  w.yy = to_wide(a.yy);
+  w.yz = to_wide(a.yz);
+  w.zz = to_wide(a.zz);
+  return w;
+}
+
+/// a aᵀ
+static inline WideSymmetric wide_square3(WideVec3 a) {
+  WideSymmetric s;
+  s.xx = a.x * a.x;
+  s.xy = a.x * a.y;
+  s.xz = a.x * a.z;
+  s.yy = a.y * a.y;
+  s.yz = a.y * a.z;
+  s.zz = a.z * a.z;
+  return s;
+}
+/// aᵀ a
+static inline WideSymmetric wide_gram3(Mat3 a) {
+  return add_wide(add_wide(wide_square3(wide3(a.x)), wide_square3(wide3(a.y))), wide_square3(wide3(a.z)));
+}
+/// aᵀ b
+static inline WideVec3 wide_pull3(Mat3 a, Vec3 b) {
+  const WideVec3 w = wide3(b);
+  return add_wide3(add_wide3(scale_wide3(w.x, wide3(a.x)), scale_wide3(w.y, wide3(a.y))), scale_wide3(w.z, wide3(a.z)));
+}
+
 /// What the triangles beside an edge bring to its quadratic, and `turned`, eq. 26 times the edge's squared length.
 typedef struct {
-  Symmetric grams, normals;
-  Vec3 side;
+  WideSymmetric grams;
+  Symmetric normals;
+  WideVec3 side;
   real length, turned;
 } EdgeSum;
 
 static inline EdgeSum no_sides(void) {
   const real none = (real)0;
   EdgeSum sum;
-  sum.grams = sum.normals = diagonal3(none);
-  sum.side = vec3(none, none, none);
+  sum.normals = diagonal3(none);
+  sum.grams = wide_symmetric(sum.normals);
+  sum.side = wide3(vec3(none, none, none));
   sum.length = sum.turned = none;
   return sum;
 }
@@ -72,9 +158,9 @@ static inline EdgeSum no_sides(void) {
 static inline EdgeSum edge_side(Vec3 mapped, Mat3 inverse, Vec3 normal, Vec3 rest) {
   const real tilt = dot3(normal, mapped);
   EdgeSum side;
-  side.grams = gram3(inverse);
+  side.grams = wide_gram3(inverse);
   side.normals = square3(normal);
-  side.side = apply3(transpose3(inverse), rest);
+  side.side = wide_pull3(inverse, rest);
   side.length = sqrt(dot3(mapped, mapped));
   side.turned = tilt * tilt;
   return side;
@@ -82,9 +168,9 @@ static inline EdgeSum edge_side(Vec3 mapped, Mat3 inverse, Vec3 normal, Vec3 res
 
 static inline EdgeSum add_sides(EdgeSum a, EdgeSum b) {
   EdgeSum sum;
-  sum.grams = add_symmetric(a.grams, b.grams);
+  sum.grams = add_wide(a.grams, b.grams);
   sum.normals = add_symmetric(a.normals, b.normals);
-  sum.side = add3(a.side, b.side);
+  sum.side = add_wide3(a.side, b.side);
   sum.length = a.length + b.length;
   sum.turned = a.turned + b.turned;
   return sum;
@@ -92,8 +178,8 @@ static inline EdgeSum add_sides(EdgeSum a, EdgeSum b) {
 
 /// e' block e - 2 side' e
 typedef struct {
-  Symmetric block;
-  Vec3 side;
+  WideSymmetric block;
+  WideVec3 side;
   real target;
 } EdgeQuadratic;
 
@@ -107,9 +193,9 @@ static inline EdgeQuadratic edge_quadratic(EdgeSum sum, real mean, real share, V
   const real fitted = larger_of(mean, (real)1e-9 * length), target = kept > (real)0 ? kept : fitted;
   const real across = share * normal_weight * weight * length / (target * target);
   EdgeQuadratic quadratic;
-  quadratic.block = add_symmetric(add_symmetric(diagonal3(scale), scale_symmetric(along, sum.grams)),
-                                  scale_symmetric(across, sum.normals));
-  quadratic.side = add3(scale3(scale, rest), scale3(along, sum.side));
+  const Symmetric others = add_symmetric(diagonal3(scale), scale_symmetric(across, sum.normals));
+  quadratic.block = add_wide(wide_symmetric(others), scale_wide(to_wide(along), sum.grams));
+  quadratic.side = add_wide3(wide3(scale3(scale, rest)), scale_wide3(to_wide(along), sum.side));
   quadratic.target = target;
   return quadratic;
 }

@@ -47,6 +47,8 @@ struct Single {
   using Vec3 = in_single::Vec3;
   using Mat3 = in_single::Mat3;
   using Symmetric = in_single::Symmetric;
+  using WideVec3 = in_single::WideVec3;
+  using WideSymmetric = in_single::WideSymmetric;
   using Corners = in_single::Corners;
   using Sides = in_single::Sides;
   using Rows = in_single::Rows;
@@ -59,6 +61,8 @@ struct Twice {
   using Vec3 = in_double::Vec3;
   using Mat3 = in_double::Mat3;
   using Symmetric = in_double::Symmetric;
+  using WideVec3 = in_double::WideVec3;
+  using WideSymmetric = in_double::WideSymmetric;
   using Corners = in_double::Corners;
   using Sides = in_double::Sides;
   using Rows = in_double::Rows;
@@ -95,6 +99,10 @@ class TransformMath : public testing::Test {
     return matrix;
   }
   static Matrix3d from(const Symmetric& s) {
+    return Matrix3d{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+  }
+  static Vector3d from(const typename Maths::WideVec3& v) { return {v.x, v.y, v.z}; }
+  static Matrix3d from(const typename Maths::WideSymmetric& s) {
     return Matrix3d{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
   }
 

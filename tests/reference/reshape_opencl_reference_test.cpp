@@ -56,6 +56,12 @@ class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
 TEST_P(ReferenceGestureOnADevice, IsTheSameInDouble) { expect_the_references(Precision::twice, 1e-9); }
 TEST_P(ReferenceGestureOnADevice, IsTheSameInSingle) { expect_the_references(Precision::single, 2e-5); }
 
+TEST_P(ReferenceGestureOnADevice, SteadyIsTheSame) {
+  authors_.options = test::authors_gesture(GetParam().model, GetParam().gesture, {}).options;
+  expect_the_references(Precision::twice, 1e-6);
+  expect_the_references(Precision::single, 2e-5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Authors, ReferenceGestureOnADevice, testing::ValuesIn(kGestures), [](const auto& named) {
   std::string name = std::string(named.param.model) + "_" + named.param.gesture;
   std::replace(name.begin(), name.end(), '-', '_');

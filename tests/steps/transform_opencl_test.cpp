@@ -228,9 +228,9 @@ TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
     const double weight = std::max(1.0, vector.squaredNorm() / (rest.mean_edge_length * rest.mean_edge_length));
     const in_single::EdgeQuadratic expected = in_single::edge_quadratic(
         sum, sum.length / 2, 1, single3(vector), static_cast<float>(weight), 0, normal_weight, scale);
-    const in_single::Symmetric& b = expected.block;
-    const Eigen::Matrix<float, 1, 6> block{b.xx, b.xy, b.xz, b.yy, b.yz, b.zz};
-    EXPECT_EQ(quadratics.blocks.row(e), block.cast<double>()) << "edge " << e;
+    const in_single::WideSymmetric& b = expected.block;
+    const Eigen::Matrix<double, 1, 6> block{b.xx, b.xy, b.xz, b.yy, b.yz, b.zz};
+    EXPECT_EQ(quadratics.blocks.row(e), block) << "edge " << e;
     EXPECT_EQ(quadratics.target_lengths[e], static_cast<double>(expected.target)) << "edge " << e;
   }
 }
