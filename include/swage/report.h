@@ -20,8 +20,7 @@ struct Progress {
 /// complete iterate.
 using ProgressFn = std::function<bool(const Progress&)>;
 
-/// Why a solve ended. In each case the positions returned are those of the pass with the lowest energy seen when it
-/// ended, but for `cancelled`, where they are the last complete pass's.
+/// Why a solve ended. The positions returned are the last complete pass's, but for `energy_rose` the one's before.
 enum class Termination {
   moved_little,    ///< No vertex moved farther than StopRule::movement in the last pass.
   energy_rose,     ///< The energy rose or stood still: the pass before is returned.
@@ -48,8 +47,8 @@ struct Report {
   double energy = 0;                             ///< Of the pass returned.
   std::map<std::string, double> energy_by_term;  ///< Its parts, weighted.
   std::vector<double> energies;                  ///< After each pass.
-  std::vector<double> movements;                 ///< Largest vertex movement of each pass, solver units.
-  std::map<std::string, double> seconds;         ///< Wall time by stage.
+  std::vector<double> movements;  ///< How far each pass moved a vertex at most from where it started, solver units.
+  std::map<std::string, double> seconds;  ///< Wall time by stage.
   std::vector<std::string> warnings;
 };
 
