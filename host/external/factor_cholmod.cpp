@@ -25,15 +25,15 @@ namespace {
 class OneThread {
  public:
   OneThread() {
-    const std::lock_guard lock(mutex_);
-    if (alive_++ == 0) {
-      threads_before_ = openblas_get_num_threads();
+    const std::lock_guard lock(changing);
+    if (alive++ == 0) {
+      threads_before = openblas_get_num_threads();
       openblas_set_num_threads(1);
     }
   }
   ~OneThread() {
-    const std::lock_guard lock(mutex_);
-    if (--alive_ == 0) openblas_set_num_threads(threads_before_);
+    const std::lock_guard lock(changing);
+    if (--alive == 0) openblas_set_num_threads(threads_before);
 #ifdef _OPENMP
     omp_set_max_active_levels(levels_before_);
 #endif
@@ -43,8 +43,8 @@ class OneThread {
 
  private:
   // OpenBLAS's setting is the process's: the first in sets it, the last out restores it.
-  static inline std::mutex mutex_;
-  static inline int alive_ = 0, threads_before_ = 1;
+  static inline std::mutex changing;
+  static inline int alive = 0, threads_before = 1;
 #ifdef _OPENMP
   const int levels_before_ = [] {
     const int levels = omp_get_max_active_levels();
