@@ -42,6 +42,7 @@ int any_lane(bool condition) { return condition ? 1 : 0; }
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
 #include "shared/procrustes.h"
+#include "shared/wide.h"
 #include "shared/transform.h"
 #include "shared/quadric.h"
 namespace in_rows {

@@ -42,8 +42,9 @@ class CpuCoupling final : public CouplingStep {
       sum += transform * vector * vector.transpose() / rest_.mean_edge_length;
       sum += rest_.transform_normal_weight * normal.dot(transform * direction) * normal * direction.transpose();
     }
-    if (rest_.sphericities[t] != 0)
+    if (rest_.sphericities[t] != 0) {
       sum += rest_.transform_sphericity_factor * rest_.sphericities[t] * corner_differences(t, transform);
+    }
     return sum;
   }
 

@@ -167,10 +167,11 @@ class CpuTransform final : public TransformStep {
         return positions.row(rest_.triangles(t, to)) - positions.row(rest_.triangles(t, from));
       });
     });
-    sum.transform_sphericity = add_up(rest_.triangles.rows(), [&](Eigen::Index t) {
-      return sphericity_term(
-          t, [&](int from, int to) -> Vector3d { return matrix(transforms_, t) * rest_side(t, from, to); });
-    });
+    sum.transform_sphericity = rest_.transform_sphericity_factor * add_up(rest_.triangles.rows(), [&](Eigen::Index t) {
+                                 return sphericity_term(t, [&](int from, int to) -> Vector3d {
+                                   return matrix(transforms_, t) * rest_side(t, from, to);
+                                 });
+                               });
     sum.connect = rest_.connect_weight * add_up(rest_.pairs.rows(), [&](Eigen::Index p) {
                     const int e = rest_.pair_edges[p];
                     return pair_term(p, rest_.edge_vectors.row(e).transpose() / rest_lengths_[e]);

@@ -4,6 +4,7 @@
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
+#include "shared/wide.h"
 #include "shared/transform.h"
 #include "shared/triangle.h"
 #include "shared/lane_memory.h"
@@ -48,12 +49,12 @@ kernel void invert(const int items, const int count, global const host_scalar* t
 INLINE void store_quadratic(EdgeQuadratic q, int first, int elements, global host_scalar* blocks,
                             global host_scalar* sides, global host_scalar* targets) {
   blocks += 6 * first, sides += 3 * first;
-  store_wide_entries(q.block.xx, blocks, 6, elements);
-  store_wide_entries(q.block.xy, blocks + 1, 6, elements);
-  store_wide_entries(q.block.xz, blocks + 2, 6, elements);
-  store_wide_entries(q.block.yy, blocks + 3, 6, elements);
-  store_wide_entries(q.block.yz, blocks + 4, 6, elements);
-  store_wide_entries(q.block.zz, blocks + 5, 6, elements);
+  store_wide_entries(q.block.diagonal.x, blocks, 6, elements);
+  store_wide_entries(q.block.mixed.x, blocks + 1, 6, elements);
+  store_wide_entries(q.block.mixed.y, blocks + 2, 6, elements);
+  store_wide_entries(q.block.diagonal.y, blocks + 3, 6, elements);
+  store_wide_entries(q.block.mixed.z, blocks + 4, 6, elements);
+  store_wide_entries(q.block.diagonal.z, blocks + 5, 6, elements);
   store_wide_entries(q.side.x, sides, 3, elements);
   store_wide_entries(q.side.y, sides + 1, 3, elements);
   store_wide_entries(q.side.z, sides + 2, 3, elements);

@@ -17,7 +17,8 @@ namespace swage::cli {
 namespace {
 
 ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const BackendChoice& choice) {
-  ReshapeOptions options = job.solver == "published" ? ReshapeOptions::published() : ReshapeOptions();
+  ReshapeOptions options;
+  options.solver = job.solver == to_string(ReshapeSolver::published) ? ReshapeSolver::published : ReshapeSolver::steady;
   options.feature_angle = job.feature_angle * std::numbers::pi / 180;
   options.finalise = !job.no_finalise;
   options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()));

@@ -41,7 +41,7 @@ Eigen::Matrix<int, Eigen::Dynamic, 3> beside(const EdgeTable& table) {
 }
 
 /// Rows of twelve, whose first nine are the inverses' to come.
-Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> beside_no_inverses(const Positions& normals) {
+Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> triangle_rows(const Positions& normals) {
   Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> rows(normals.rows(), 12);
   rows << Transforms::Zero(normals.rows(), 9), normals;
   return rows;
@@ -100,8 +100,8 @@ class OpenClTransform final : public TransformStep {
  private:
   OpenClTransform(const Queue& queue, const Rest& rest, const EdgeTable& table, const RoundTriangles& round)
       : queue_(queue),
-        constants_{rest.mean_edge_length, rest.normal_weight, rest.connect_weight, rest.scale_weight,
-                   rest.regularizer_weight},
+        constants_{rest.mean_edge_length, rest.normal_weight,      rest.connect_weight,
+                   rest.scale_weight,     rest.regularizer_weight, rest.transform_sphericity_factor},
         vertices_(rest.vertices.rows()),
         triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
         edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
@@ -129,7 +129,7 @@ class OpenClTransform final : public TransformStep {
         mapped_sums_(queue, round_.items()),
         triangle_sums_(queue, triangles_.items()),
         corner_sums_(queue, round_.items()) {
-    triangle_rows_.upload(beside_no_inverses(rest.normals), Layout::rows);
+    triangle_rows_.upload(triangle_rows(rest.normals), Layout::rows);
     if (!table.crowded.empty() || table.pairs.rows() != 0) crowds_.emplace(queue, table);
   }
 
@@ -191,7 +191,7 @@ class OpenClTransform final : public TransformStep {
     energy_.transform_normal = edges[0];
     energy_.connect = constants_.connect_weight * edges[1];
     energy_.similarity = edges[2];
-    energy_.transform_sphericity = mapped_sums_.total()[0];
+    energy_.transform_sphericity = constants_.transform_sphericity_factor * mapped_sums_.total()[0];
   }
 
   Energy with_energy_of_positions() const {
@@ -205,7 +205,8 @@ class OpenClTransform final : public TransformStep {
   }
 
   struct Constants {
-    double mean_edge_length, normal_weight, connect_weight, scale_weight, regularizer_weight;
+    double mean_edge_length, normal_weight, connect_weight, scale_weight, regularizer_weight,
+        transform_sphericity_factor;
   };
 
   Queue queue_;

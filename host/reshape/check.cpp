@@ -47,7 +47,7 @@ void check_edge(const Triangles& triangles, const Edges& edges, int e) {
 }  // namespace
 
 void check_options(const ReshapeOptions& options, const Mesh& mesh) {
-  const ReshapeWeights& w = options.weights;
+  const ReshapeWeights w = options.weights.value_or(ReshapeWeights());
   for (const double weight :
        {w.normal, w.similarity, w.connect, w.sphericity, w.scale, w.regularizer, w.handle, w.straightness}) {
     if (!(weight >= 0) || std::isinf(weight)) throw InvalidInput("Reshape: options.weights: not finite or negative");

@@ -22,11 +22,6 @@ double handle_misses(const Positions& positions, const Holds& handles) {
   return total;
 }
 
-/// The local step weighs it as the vertex step's.
-double transform_sphericity(const TransformStep::Energy& local, const StepWeights& weights) {
-  return weights.sphericity == 0 ? 0 : weights.transform_sphericity / weights.sphericity * local.transform_sphericity;
-}
-
 }  // namespace
 
 std::map<std::string, double> energy_terms(const TransformStep::Energy& local, const Positions& positions,
@@ -44,7 +39,7 @@ std::map<std::string, double> energy_terms(const TransformStep::Energy& local, c
       {"transform_normal", weights.transform_normal * local.transform_normal},
       // The published program counts this in place of the transform step's own transform term.
       {"transform_normal_again", local.transform_normal},
-      {"transform_sphericity", transform_sphericity(local, weights)},
+      {"transform_sphericity", local.transform_sphericity},
       {"regularizer", local.regularizer},
   };
 }

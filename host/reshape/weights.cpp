@@ -20,7 +20,7 @@ StepWeights at_resolution(const ReshapeWeights& w, double L, double L0) {
   StepWeights weights = as_given(w);
   // The vertex step's transform, normal and sphericity terms are numbers without a unit: as many as there are
   // triangles, 1 / L².
-  // Handles are as many whatever L. On fewer than 1,000 triangles they would become soft.
+  // Handles are as many whatever L, and chains as stiff as handles. On fewer than 1,000 triangles they would be soft.
   const double hold = std::max(0.1, std::pow(L0 / L, 2));
   weights.handle *= hold;
   weights.straightness *= hold;
@@ -46,19 +46,14 @@ ReshapeWeights ReshapeWeights::published() {
   return weights;
 }
 
-ReshapeOptions ReshapeOptions::published() {
-  ReshapeOptions options;
-  options.solver = ReshapeSolver::published;
-  options.weights = ReshapeWeights::published();
-  return options;
-}
-
 const char* to_string(ReshapeSolver solver) { return solver == ReshapeSolver::steady ? "steady" : "published"; }
 
 StepWeights step_weights(const ReshapeOptions& options, const Mesh& unit_mesh) {
-  if (options.solver == ReshapeSolver::published) return as_given(options.weights);
+  if (options.solver == ReshapeSolver::published)
+    return as_given(options.weights.value_or(ReshapeWeights::published()));
   const double area = area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm().sum() / 2;
-  return at_resolution(options.weights, mean_edge_length(unit_mesh.positions, unit_mesh.triangles), edge_length(area));
+  return at_resolution(options.weights.value_or(ReshapeWeights()),
+                       mean_edge_length(unit_mesh.positions, unit_mesh.triangles), edge_length(area));
 }
 
 }  // namespace swage

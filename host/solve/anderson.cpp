@@ -7,7 +7,7 @@ namespace swage {
 namespace {
 
 constexpr double kAstray = 2;
-constexpr double kDamping = 1e-12;  // Of the columns' mean square: they become dependent as passes converge.
+constexpr double kDamping = 1e-12;  // Of the columns' squares in all: they become dependent as passes converge.
 
 Eigen::Map<const Eigen::VectorXd> flat(const Positions& positions) { return {positions.data(), positions.size()}; }
 

@@ -27,8 +27,8 @@ enum class ReshapeSolver {
 const char* to_string(ReshapeSolver solver);
 
 /// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box. Finite, none negative;
-/// handle and regularizer above 0. The steady solver takes them as of a mesh of 10,000 equal triangles and scales them
-/// to the one given.
+/// handle and regularizer above 0. The defaults are the steady solver's, which takes them as of a mesh of 10,000 equal
+/// triangles and scales them to the one given.
 struct ReshapeWeights {
   double normal = 10;           ///< w_normal
   double similarity = 1;        ///< of E_similarity
@@ -45,7 +45,7 @@ struct ReshapeWeights {
 
 struct ReshapeOptions {
   ReshapeSolver solver = ReshapeSolver::steady;
-  ReshapeWeights weights;
+  std::optional<ReshapeWeights> weights;                ///< The solver's own where none are given.
   double feature_angle = std::numbers::pi * 105 / 180;  ///< Interior dihedral angle in radians, [0, pi]: surfaces
                                                         ///< beside a sharper edge stretch independently.
   std::optional<Curvatures> unit_box_curvatures;  ///< #T × 2, of the mesh scaled into the unit box; else computed.
@@ -57,9 +57,6 @@ struct ReshapeOptions {
   bool finalise = true;                           ///< Spread dimples at handles (appendix A).
   bool refactor_every_pass = false;               ///< As published: the same result, slower. For comparison.
   std::shared_ptr<Backend> backend;               ///< Does the local steps; cpu_backend() where none is given.
-
-  /// The published solver with the published weights.
-  static ReshapeOptions published();
 };
 
 struct ReshapeResult {

@@ -56,12 +56,11 @@ class TransformStep {
     int singular = 0;  ///< Triangles whose transform is too near singular to invert: a damped inverse stands in.
   };
 
-  /// Terms of the energy, weighted, with current lengths in place of target lengths. Without their weight come
-  /// transform_normal and the factor of transform_sphericity.
+  /// Terms of the energy, weighted but for transform_normal, with current lengths in place of target lengths.
   struct Energy {
     double transform = 0, normal = 0, scale = 0, sphericity = 0;                    ///< Of the vertex step.
     double connect = 0, similarity = 0, transform_sphericity = 0, regularizer = 0;  ///< Of the transform step.
-    double transform_normal = 0;
+    double transform_normal = 0;                                                    ///< The same, without its weight.
   };
 
   virtual ~TransformStep() = default;

@@ -25,8 +25,6 @@ static inline Symmetric diagonal3(real s) { return symmetric(s, 0, 0, s, 0, s); 
 static inline Symmetric square3(Vec3 a) {
   return symmetric(a.x * a.x, a.x * a.y, a.x * a.z, a.y * a.y, a.y * a.z, a.z * a.z);
 }
-/// aᵀ a
-static inline Symmetric gram3(Mat3 a) { return add_symmetric(add_symmetric(square3(a.x), square3(a.y)), square3(a.z)); }
 static inline Mat3 full3(Symmetric a) {
   return mat3(vec3(a.xx, a.xy, a.xz), vec3(a.xy, a.yy, a.yz), vec3(a.xz, a.yz, a.zz));
 }

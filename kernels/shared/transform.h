@@ -1,4 +1,4 @@
-// The transform step's maths (reshape paper, sections 3.3 and 4.2), in C99 ∩ C++, after symmetric.h. No branches, or
+// The transform step's maths (reshape paper, sections 3.3 and 4.2), in C99 ∩ C++, after wide.h. No branches, or
 // for all lanes: a lane of a vector unit each.
 
 /// Of a triangle's transform. `damped` is 1 where it is too near singular to invert, else 0.
@@ -52,93 +52,9 @@ static inline real length_weight(Vec3 edge, real mean_edge_length) {
   return larger_of((real)1, dot3(edge, edge) / (mean_edge_length * mean_edge_length));
 }
 
-/// In numbers as wide as the host's: a flattened triangle's inverse is so long one way that, squared, all that it says
-/// of the other ways would be lost to rounding in single precision.
-typedef struct {
-  wide x, y, z;
-} WideVec3;
-typedef struct {
-  wide xx, xy, xz, yy, yz, zz;
-} WideSymmetric;
-
-static inline WideVec3 wide3(Vec3 a) {
-  WideVec3 w;
-  w.x = to_wide(a.x);
-  w.y = to_wide(a.y);
-  w.z = to_wide(a.z);
-  return w;
-}
-
-static inline WideVec3 add_wide3(WideVec3 a, WideVec3 b) {
-  WideVec3 sum;
-  sum.x = a.x + b.x;
-  sum.y = a.y + b.y;
-  sum.z = a.z + b.z;
-  return sum;
-}
-static inline WideVec3 scale_wide3(wide s, WideVec3 a) {
-  WideVec3 scaled;
-  scaled.x = s * a.x;
-  scaled.y = s * a.y;
-  scaled.z = s * a.z;
-  return scaled;
-}
-
-static inline WideSymmetric add_wide(WideSymmetric a, WideSymmetric b) {
-  WideSymmetric sum;
-  sum.xx = a.xx + b.xx;
-  sum.xy = a.xy + b.xy;
-  sum.xz = a.xz + b.xz;
-  sum.yy = a.yy + b.yy;
-  sum.yz = a.yz + b.yz;
-  sum.zz = a.zz + b.zz;
-  return sum;
-}
-static inline WideSymmetric scale_wide(wide s, WideSymmetric a) {
-  WideSymmetric scaled;
-  scaled.xx = s * a.xx;
-  scaled.xy = s * a.xy;
-  scaled.xz = s * a.xz;
-  scaled.yy = s * a.yy;
-  scaled.yz = s * a.yz;
-  scaled.zz = s * a.zz;
-  return scaled;
-}
-static inline WideSymmetric wide_symmetric(Symmetric a) {
-  WideSymmetric w;
-  w.xx = to_wide(a.xx);
-  w.xy = to_wide(a.xy);
-  w.xz = to_wide(a.xz);
-  w.yy = to_wide(a.yy);
-  w.yz = to_wide(a.yz);
-  w.zz = to_wide(a.zz);
-  return w;
-}
-
-/// a aᵀ
-static inline WideSymmetric wide_square3(WideVec3 a) {
-  WideSymmetric s;
-  s.xx = a.x * a.x;
-  s.xy = a.x * a.y;
-  s.xz = a.x * a.z;
-  s.yy = a.y * a.y;
-  s.yz = a.y * a.z;
-  s.zz = a.z * a.z;
-  return s;
-}
-/// aᵀ a
-static inline WideSymmetric wide_gram3(Mat3 a) {
-  return add_wide(add_wide(wide_square3(wide3(a.x)), wide_square3(wide3(a.y))), wide_square3(wide3(a.z)));
-}
-/// aᵀ b
-static inline WideVec3 wide_pull3(Mat3 a, Vec3 b) {
-  const WideVec3 w = wide3(b);
-  return add_wide3(add_wide3(scale_wide3(w.x, wide3(a.x)), scale_wide3(w.y, wide3(a.y))), scale_wide3(w.z, wide3(a.z)));
-}
-
 /// What the triangles beside an edge bring to its quadratic, and `turned`, eq. 26 times the edge's squared length.
 typedef struct {
-  WideSymmetric grams;
+  WideSymmetric grams;  // Wide: squared, a flattened triangle's inverse would bury its short ways below its long one.
   Symmetric normals;
   WideVec3 side;
   real length, turned;
@@ -168,7 +84,7 @@ static inline EdgeSum edge_side(Vec3 mapped, Mat3 inverse, Vec3 normal, Vec3 res
 
 static inline EdgeSum add_sides(EdgeSum a, EdgeSum b) {
   EdgeSum sum;
-  sum.grams = add_wide(a.grams, b.grams);
+  sum.grams = add_wide_symmetric(a.grams, b.grams);
   sum.normals = add_symmetric(a.normals, b.normals);
   sum.side = add_wide3(a.side, b.side);
   sum.length = a.length + b.length;
@@ -194,7 +110,7 @@ static inline EdgeQuadratic edge_quadratic(EdgeSum sum, real mean, real share, V
   const real across = share * normal_weight * weight * length / (target * target);
   EdgeQuadratic quadratic;
   const Symmetric others = add_symmetric(diagonal3(scale), scale_symmetric(across, sum.normals));
-  quadratic.block = add_wide(wide_symmetric(others), scale_wide(to_wide(along), sum.grams));
+  quadratic.block = add_wide_symmetric(wide_symmetric(others), scale_wide_symmetric(to_wide(along), sum.grams));
   quadratic.side = add_wide3(wide3(scale3(scale, rest)), scale_wide3(to_wide(along), sum.side));
   quadratic.target = target;
   return quadratic;

@@ -19,6 +19,7 @@ using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
+#include "shared/wide.h"
 #include "shared/transform.h"
 #include "shared/triangle.h"
 #include "row.h"
@@ -32,6 +33,7 @@ using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
+#include "shared/wide.h"
 #include "shared/transform.h"
 #include "shared/triangle.h"
 #include "row.h"
@@ -103,7 +105,9 @@ class TransformMath : public testing::Test {
   }
   static Vector3d from(const typename Maths::WideVec3& v) { return {v.x, v.y, v.z}; }
   static Matrix3d from(const typename Maths::WideSymmetric& s) {
-    return Matrix3d{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+    const Vector3d diagonal = from(s.diagonal), mixed = from(s.mixed);
+    return Matrix3d{
+        {diagonal[0], mixed[0], mixed[1]}, {mixed[0], diagonal[1], mixed[2]}, {mixed[1], mixed[2], diagonal[2]}};
   }
 
   // Random, and as the precision has them: what is compared starts from the same numbers.

@@ -87,6 +87,47 @@ TEST(Alternate, ACancelKeepsTheLastCompletePass) {
   EXPECT_EQ(positions(0, 0), 2);
 }
 
+TEST(Alternate, PassesThatWatchMovementAloneLetTheEnergyRise) {
+  StopRule stop;
+  stop.by_energy = false;
+  stop.movement = 0.1;
+  Script script{{5, 9, 9, 9, 9}, {1, 1, 1, 1, 0.01}};
+  Positions positions = origin();
+  const Report report = alternate(stop, {}, positions, script.steps());
+  EXPECT_EQ(report.stop, Termination::moved_little);
+  EXPECT_EQ(report.passes, 5);
+  EXPECT_EQ(report.best_pass, 4);
+}
+
+/// Passes that start ten further than the last one ended.
+Alternation leaping(Script& script, std::vector<double>& fitted) {
+  Alternation steps = script.steps();
+  steps.next = [](const Positions&, const Positions& end) { return Positions(end.array() + 10); };
+  steps.fit = [&](const Positions& start) { fitted.push_back(start(0, 0)); };
+  return steps;
+}
+
+TEST(Alternate, APassStartsWhereNextSaysAndMovesFromThere) {
+  StopRule stop;
+  stop.pass_limit = 3;
+  Script script{{9, 8, 7}, {1, 2, 3}};
+  std::vector<double> fitted;
+  Positions positions = origin();
+  const Report report = alternate(stop, {}, positions, leaping(script, fitted));
+  EXPECT_EQ(fitted, (std::vector<double>{11, 23}));
+  EXPECT_EQ(positions(0, 0), 26);
+  EXPECT_EQ(report.movements, (std::vector<double>{1, 2, 3}));
+}
+
+TEST(Alternate, ACancelKeepsThePassNotWhereTheNextWouldStart) {
+  Script script{{9, 8, 7}, {1, 1, 1}};
+  std::vector<double> fitted;
+  Positions positions = origin();
+  alternate(
+      {}, [](const Progress& p) { return p.pass < 2; }, positions, leaping(script, fitted));
+  EXPECT_EQ(positions(0, 0), 12);
+}
+
 TEST(Alternate, AnUndefinedEnergyIsAnError) {
   Script script{{std::numeric_limits<double>::quiet_NaN()}, {1}};
   Positions positions = origin();

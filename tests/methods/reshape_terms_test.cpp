@@ -16,7 +16,7 @@ constexpr double kTolerance = 1e-6;  // Relative to the gradient's length.
 
 /// A small round shape with every term alive: curved, so that sphericity counts, and a straight chain.
 struct Case {
-  ReshapeOptions options = ReshapeOptions::published();
+  ReshapeOptions options;
   Mesh mesh = test::transformed(test::sphere(0.5, 1), 1, {0.5, 0.5, 0.5});
   Edges edges = edges_of(mesh.triangles);
   std::vector<StraightTriple> straight;
@@ -24,7 +24,8 @@ struct Case {
   Transforms transforms;
   Positions positions;
 
-  explicit Case(const ReshapeWeights& weights) {
+  explicit Case(const ReshapeWeights& weights, ReshapeSolver solver = ReshapeSolver::published) {
+    options.solver = solver;
     options.weights = weights;
     const Curvatures curvatures = Curvatures::Constant(mesh.triangles.rows(), 2, 2);
     rest = rest_shape(options, mesh, edges, curvatures);
@@ -82,9 +83,9 @@ Eigen::VectorXd vertex_gradient(const Case& c) {
   const auto step = cpu_backend()->transform(c.rest);
   TransformStep::EdgeQuadratics quadratics;
   step->fit_edges(c.transforms, quadratics);
-  const Holds handles{{3, 5}, c.positions.topRows(2), c.options.weights.handle};
+  const Holds handles{{3, 5}, c.positions.topRows(2), c.options.weights->handle};
   const Eigen::VectorXd b =
-      assemble(vertices, c.rest, quadratics, c.straight, c.options.weights.straightness, {handles});
+      assemble(vertices, c.rest, quadratics, c.straight, c.options.weights->straightness, {handles});
   return 2 * (vertices.system.times(flat(c.positions)) - b);
 }
 
@@ -192,11 +193,11 @@ Eigen::VectorXd transform_gradient(const Case& c) {
   return 2 * (transform_system(c.rest).times(flat(c.transforms)) - flat(b));
 }
 
-void expect_transform_term(Weigh weigh, LocalTerm term) {
+void expect_transform_term(Weigh weigh, LocalTerm term, ReshapeSolver solver = ReshapeSolver::published) {
   ReshapeWeights weights = no_weights();
-  const Eigen::VectorXd transform_alone = transform_gradient(Case(weights));
+  const Eigen::VectorXd transform_alone = transform_gradient(Case(weights, solver));
   weigh(weights);
-  const Case c(weights);
+  const Case c(weights, solver);
   expect_gradient(transform_gradient(c) - transform_alone, flat(c.transforms), [&](const Eigen::VectorXd& x) {
     const auto step = cpu_backend()->transform(c.rest);
     TransformStep::EdgeQuadratics quadratics;
@@ -247,6 +248,17 @@ TEST(TransformStepTerms, Sphericity) {
 TEST(TransformStepTerms, Regularizer) {
   expect_transform_term([](ReshapeWeights& w) { w.regularizer = 3; },
                         [](const TransformStep::Energy& e) { return e.regularizer; });
+}
+
+// Scaled to the mesh's resolution, matrix and energy alike.
+TEST(TransformStepTerms, OfTheSteadySolver) {
+  using Energy = TransformStep::Energy;
+  const std::pair<Weigh, LocalTerm> terms[] = {
+      {[](ReshapeWeights& w) { w.connect = 3; }, [](const Energy& e) { return e.connect; }},
+      {[](ReshapeWeights& w) { w.similarity = 3; }, [](const Energy& e) { return e.similarity; }},
+      {[](ReshapeWeights& w) { w.sphericity = 3; }, [](const Energy& e) { return e.transform_sphericity; }},
+      {[](ReshapeWeights& w) { w.regularizer = 3; }, [](const Energy& e) { return e.regularizer; }}};
+  for (const auto& [weigh, term] : terms) expect_transform_term(weigh, term, ReshapeSolver::steady);
 }
 
 }  // namespace

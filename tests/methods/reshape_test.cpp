@@ -10,6 +10,8 @@
 #include <numeric>
 #include <random>
 
+#include "edit_measures.h"
+#include "measures.h"
 #include "shapes.h"
 #include "swage/error.h"
 
@@ -145,6 +147,42 @@ TEST(Reshape, TakesRowAndColumnMajorMatrices) {
             reshape(mesh.positions, mesh.triangles, gesture).positions);
 }
 
+TEST(Reshape, AnotherResolutionGivesTheSameShape) {
+  const Mesh coarse = test::cylinder(0.5, 1, 40, 12), fine = test::subdivided(coarse);
+  ReshapeOptions options;
+  options.unit_box_curvatures = curvature(unit_box(coarse.positions).into(coarse.positions), coarse.triangles);
+  const Gesture gesture = lift_top(coarse, {0.1, 0.5, 0});
+  const Positions expected = reshape(coarse.positions, coarse.triangles, gesture, options).positions;
+  Curvatures inherited(fine.triangles.rows(), 2);
+  for (Eigen::Index t = 0; t < inherited.rows(); ++t) inherited.row(t) = options.unit_box_curvatures->row(t / 4);
+  options.unit_box_curvatures = inherited;
+  const Positions result = reshape(fine.positions, fine.triangles, gesture, options).positions;
+  const test::Deviation apart = test::deviation(expected, result);
+  EXPECT_LT(apart.mean, 0.005);
+  EXPECT_LT(apart.largest, 0.015);
+}
+
+TEST(Reshape, OneMorePassOfASteadyResultMovesNothing) {
+  const Mesh mesh = part();
+  const Report report = reshape(mesh.positions, mesh.triangles, lift_top(mesh, {0, 0.5, 0})).report;
+  EXPECT_EQ(report.stop, Termination::moved_little);
+  EXPECT_LT(report.movements.back(),
+            1e-3 * mean_edge_length(unit_box(mesh.positions).into(mesh.positions), mesh.triangles));
+}
+
+TEST(Reshape, TheSolversOwnWeightsAreUsedWhereNoneAreGiven) {
+  const Mesh mesh = part();
+  const Gesture gesture = lift_top(mesh, {0.1, 0.3, 0});
+  ReshapeOptions own, given;
+  own.solver = given.solver = ReshapeSolver::published;
+  given.weights = ReshapeWeights::published();
+  EXPECT_EQ(reshape(mesh.positions, mesh.triangles, gesture, own).positions,
+            reshape(mesh.positions, mesh.triangles, gesture, given).positions);
+  given.weights = ReshapeWeights();
+  EXPECT_NE(reshape(mesh.positions, mesh.triangles, gesture, own).positions,
+            reshape(mesh.positions, mesh.triangles, gesture, given).positions);
+}
+
 TEST(Reshape, StraightChainsStayStraight) {
   const Mesh mesh = test::box({1, 1, 1}, 6);
   std::vector<int> chain;
@@ -265,10 +303,10 @@ TEST(ReshapeRefuses, WhatItCannotSolve) {
 TEST(ReshapeRefuses, OptionsOutOfRange) {
   const Mesh mesh = test::sphere(1, 1);
   ReshapeOptions options;
-  options.weights.normal = -1;
+  options.weights.emplace().normal = -1;
   EXPECT_NE(refusal(mesh, options).find("weights"), std::string::npos);
   options = {};
-  options.weights.regularizer = 0;
+  options.weights.emplace().regularizer = 0;
   EXPECT_NE(refusal(mesh, options).find("regularizer"), std::string::npos);
   options = {};
   options.feature_angle = 4;
@@ -276,6 +314,12 @@ TEST(ReshapeRefuses, OptionsOutOfRange) {
   options = {};
   options.pass_limit = 0;
   EXPECT_NE(refusal(mesh, options).find("pass_limit"), std::string::npos);
+  options = {};
+  options.movement = 0;
+  EXPECT_NE(refusal(mesh, options).find("movement"), std::string::npos);
+  options = {};
+  options.acceleration_window = -1;
+  EXPECT_NE(refusal(mesh, options).find("acceleration_window"), std::string::npos);
   options = {};
   options.unit_box_curvatures = Curvatures::Zero(3, 2);
   EXPECT_NE(refusal(mesh, options).find("unit_box_curvatures"), std::string::npos);

@@ -13,23 +13,10 @@
 namespace swage {
 namespace {
 
-struct Authors {
-  const char* model;
-  const char* gesture;
-};
-
-void PrintTo(const Authors& authors, std::ostream* out) { *out << authors.model << " " << authors.gesture; }
-
-const Authors kGestures[] = {
-    {"cylinder_1kF", "def_v0"}, {"cylinder_1kF", "def_v1"},  {"cylinder_1kF", "def_v2"},   {"cylinder_1kF", "def_v3"},
-    {"phone", "def_v1"},        {"cutlery_s26-1", "def_v1"}, {"e_car_extruded", "def_v1"}, {"espresso", "def_v1"},
-};
-
-class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
+class ReferenceGestureOnADevice : public testing::TestWithParam<test::AuthorsName> {
  protected:
   void SetUp() override {
     if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
-    authors_ = test::authors_gesture(GetParam().model, GetParam().gesture, ReshapeOptions::published());
   }
 
   ReshapeResult result(std::shared_ptr<Backend> backend) {
@@ -37,9 +24,10 @@ class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
     return reshape(authors_.mesh.positions, authors_.mesh.triangles, authors_.gesture, authors_.options);
   }
 
-  void expect_the_references(Precision precision, double tolerance) {
+  void expect_the_references(ReshapeSolver solver, Precision precision, double tolerance) {
     const auto backend = test::opencl_or_skip(precision);
     if (!backend) return;
+    authors_ = test::authors_gesture(GetParam().model, GetParam().gesture, solver);
     const ReshapeResult expected = result(cpu_backend()), device = result(backend);
     EXPECT_EQ(device.report.stop, expected.report.stop);
     EXPECT_EQ(device.report.passes, expected.report.passes);
@@ -53,20 +41,22 @@ class ReferenceGestureOnADevice : public testing::TestWithParam<Authors> {
   test::AuthorsGesture authors_;
 };
 
-TEST_P(ReferenceGestureOnADevice, IsTheSameInDouble) { expect_the_references(Precision::twice, 1e-9); }
-TEST_P(ReferenceGestureOnADevice, IsTheSameInSingle) { expect_the_references(Precision::single, 2e-5); }
-
-TEST_P(ReferenceGestureOnADevice, SteadyIsTheSame) {
-  authors_.options = test::authors_gesture(GetParam().model, GetParam().gesture, {}).options;
-  expect_the_references(Precision::twice, 1e-6);
-  expect_the_references(Precision::single, 2e-5);
+TEST_P(ReferenceGestureOnADevice, IsTheSameInDouble) {
+  expect_the_references(ReshapeSolver::published, Precision::twice, 1e-9);
+}
+TEST_P(ReferenceGestureOnADevice, IsTheSameInSingle) {
+  expect_the_references(ReshapeSolver::published, Precision::single, 2e-5);
+}
+// Where passes stop is decided at L / 1000, not at rounding.
+TEST_P(ReferenceGestureOnADevice, SteadyIsTheSameInDouble) {
+  expect_the_references(ReshapeSolver::steady, Precision::twice, 1e-6);
+}
+TEST_P(ReferenceGestureOnADevice, SteadyIsTheSameInSingle) {
+  expect_the_references(ReshapeSolver::steady, Precision::single, 2e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Authors, ReferenceGestureOnADevice, testing::ValuesIn(kGestures), [](const auto& named) {
-  std::string name = std::string(named.param.model) + "_" + named.param.gesture;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Authors, ReferenceGestureOnADevice, testing::ValuesIn(test::authors_names()),
+                         [](const auto& named) { return test::test_name(named.param.model, named.param.gesture); });
 
 }  // namespace
 }  // namespace swage

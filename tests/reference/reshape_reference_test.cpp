@@ -60,7 +60,7 @@ TEST_P(ReferenceGesture, IsMetStepByStep) {
   if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
   const Expected& expected = GetParam();
   const auto [mesh, options, gesture] =
-      test::authors_gesture(expected.model, expected.gesture, ReshapeOptions::published());
+      test::authors_gesture(expected.model, expected.gesture, ReshapeSolver::published);
 
   const ReshapeResult result = reshape(mesh.positions, mesh.triangles, gesture, options);
 
@@ -79,11 +79,8 @@ TEST_P(ReferenceGesture, IsMetStepByStep) {
               0.05 * expected.handle_error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Authors, ReferenceGesture, testing::ValuesIn(kGestures), [](const auto& named) {
-  std::string name = std::string(named.param.model) + "_" + named.param.gesture;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Authors, ReferenceGesture, testing::ValuesIn(kGestures),
+                         [](const auto& named) { return test::test_name(named.param.model, named.param.gesture); });
 
 }  // namespace
 }  // namespace swage

@@ -12,33 +12,15 @@
 namespace swage {
 namespace {
 
-struct Authors {
-  const char* model;
-  const char* gesture;
-};
-
-void PrintTo(const Authors& authors, std::ostream* out) { *out << authors.model << " " << authors.gesture; }
-
-const Authors kGestures[] = {
-    {"cylinder_1kF", "def_v0"}, {"cylinder_1kF", "def_v1"},  {"cylinder_1kF", "def_v2"},   {"cylinder_1kF", "def_v3"},
-    {"phone", "def_v1"},        {"cutlery_s26-1", "def_v1"}, {"e_car_extruded", "def_v1"}, {"espresso", "def_v1"},
-};
-
-std::string name_of(const testing::TestParamInfo<Authors>& named) {
-  std::string name = std::string(named.param.model) + "_" + named.param.gesture;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
 ReshapeResult solved(const test::AuthorsGesture& authors) {
   return reshape(authors.mesh.positions, authors.mesh.triangles, authors.gesture, authors.options);
 }
 
-class SteadyGesture : public testing::TestWithParam<Authors> {
+class SteadyGesture : public testing::TestWithParam<test::AuthorsName> {
  protected:
   void SetUp() override {
     if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
-    authors_ = test::authors_gesture(GetParam().model, GetParam().gesture, {});
+    authors_ = test::authors_gesture(GetParam().model, GetParam().gesture, ReshapeSolver::steady);
   }
 
   bool is(const std::string& model, const std::string& gesture) const {
@@ -85,10 +67,14 @@ TEST_P(SteadyGesture, IsReachedByPlainPassesToo) {
   const ReshapeResult plain = solved(authors_);
   EXPECT_EQ(plain.report.stop, Termination::moved_little);
   EXPECT_LT(accelerated.report.passes, plain.report.passes);
+  RecordProperty("passes", accelerated.report.passes);
+  RecordProperty("plain_passes", plain.report.passes);
   EXPECT_LT(test::deviation(plain.positions, accelerated.positions).largest, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Authors, SteadyGesture, testing::ValuesIn(kGestures), name_of);
+const auto kNameOf = [](const auto& named) { return test::test_name(named.param.model, named.param.gesture); };
+
+INSTANTIATE_TEST_SUITE_P(Authors, SteadyGesture, testing::ValuesIn(test::authors_names()), kNameOf);
 
 /// Curvatures and gesture inherited.
 test::AuthorsGesture refined(test::AuthorsGesture authors) {
@@ -114,8 +100,9 @@ TEST_P(SteadyRefined, OneSubdivisionChangesLittleTwoLittleMore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Authors, SteadyRefined,
-                         testing::Values(Authors{"cylinder_1kF", "def_v0"}, Authors{"cylinder_1kF", "def_v1"}),
-                         name_of);
+                         testing::Values(test::AuthorsName{"cylinder_1kF", "def_v0"},
+                                         test::AuthorsName{"cylinder_1kF", "def_v1"}),
+                         kNameOf);
 
 }  // namespace
 }  // namespace swage

@@ -23,6 +23,7 @@ using std::fabs, std::sqrt;
 #include "shared/vec3.h"
 #include "shared/mat3.h"
 #include "shared/symmetric.h"
+#include "shared/wide.h"
 #include "shared/transform.h"
 }  // namespace in_single
 // clang-format on
@@ -228,8 +229,8 @@ TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
     const double weight = std::max(1.0, vector.squaredNorm() / (rest.mean_edge_length * rest.mean_edge_length));
     const in_single::EdgeQuadratic expected = in_single::edge_quadratic(
         sum, sum.length / 2, 1, single3(vector), static_cast<float>(weight), 0, normal_weight, scale);
-    const in_single::WideSymmetric& b = expected.block;
-    const Eigen::Matrix<double, 1, 6> block{b.xx, b.xy, b.xz, b.yy, b.yz, b.zz};
+    const auto& [diagonal, mixed] = expected.block;
+    const Eigen::Matrix<double, 1, 6> block{diagonal.x, mixed.x, mixed.y, diagonal.y, mixed.z, diagonal.z};
     EXPECT_EQ(quadratics.blocks.row(e), block) << "edge " << e;
     EXPECT_EQ(quadratics.target_lengths[e], static_cast<double>(expected.target)) << "edge " << e;
   }

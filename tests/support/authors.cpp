@@ -13,8 +13,23 @@ std::filesystem::path folder(const std::string& model) { return shared("oracle/r
 
 }  // namespace
 
-AuthorsGesture authors_gesture(const std::string& model, const std::string& label, const ReshapeOptions& options) {
-  AuthorsGesture made{read_mesh(folder(model) / (model + ".obj")).mesh, options, {}};
+void PrintTo(const AuthorsName& name, std::ostream* out) { *out << name.model << " " << name.gesture; }
+
+std::string test_name(const std::string& model, const std::string& gesture) {
+  std::string name = model + "_" + gesture;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+std::vector<AuthorsName> authors_names() {
+  return {{"cylinder_1kF", "def_v0"},   {"cylinder_1kF", "def_v1"}, {"cylinder_1kF", "def_v2"},
+          {"cylinder_1kF", "def_v3"},   {"phone", "def_v1"},        {"cutlery_s26-1", "def_v1"},
+          {"e_car_extruded", "def_v1"}, {"espresso", "def_v1"}};
+}
+
+AuthorsGesture authors_gesture(const std::string& model, const std::string& label, ReshapeSolver solver) {
+  AuthorsGesture made{read_mesh(folder(model) / (model + ".obj")).mesh, {}, {}};
+  made.options.solver = solver;
   made.options.unit_box_curvatures =
       read_unit_box_curvatures(folder(model) / (model + ".fk"), static_cast<int>(made.mesh.triangles.rows()));
   const std::filesystem::path straight = folder(model) / (model + ".straight");

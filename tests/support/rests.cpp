@@ -43,14 +43,17 @@ TransformStep::Rest none() {
 
 }  // namespace
 
-TransformStep::Rest rest_of(const Mesh& mesh, double curvatures) {
-  return rest_shape(ReshapeOptions::published(), mesh, edges_of(mesh.triangles),
+TransformStep::Rest rest_of(const Mesh& mesh, double curvatures, ReshapeSolver solver) {
+  ReshapeOptions options;
+  options.solver = solver;
+  return rest_shape(options, mesh, edges_of(mesh.triangles),
                     Curvatures::Constant(mesh.triangles.rows(), 2, curvatures));
 }
 
 std::vector<std::pair<std::string, TransformStep::Rest>> rest_families() {
   const Mesh triangle{Eigen::Matrix3d{{0, 0, 0}, {1, 0, 0}, {0.3, 0.8, 0.1}}, Triangles(Eigen::RowVector3i(0, 1, 2))};
   return {{"closed", rest_of(torus())},
+          {"steady", rest_of(torus(), 2, ReshapeSolver::steady)},
           {"sharp edges", rest_of(box())},
           {"none round", rest_of(box(), 0)},
           {"flat, with boundary", rest_of(sheet(20))},
