@@ -15,12 +15,13 @@ constexpr double kFold = -0.95;
 constexpr double kFoldRounding = 1e-3;
 // Height over longest side, at most sqrt(3/4): refused below the one unless the original is worse, dearer below the
 // other, its own normal not trusted below the last.
-constexpr double kSlim = 0.02, kWellShaped = 0.3, kNoNormal = 1e-3;
+constexpr double kSlim = 0.02, kWellShaped = 0.6, kNoNormal = 1e-3;
 // Cost of moving a vertex by its distance within the surface, against that distance off it. Evens the sizes of
 // triangles out where the surface bends by less than a few degrees a triangle.
-constexpr double kAlong = 1e-3;
-// So that a vertex of a thousand sides is not a million triangles.
-constexpr size_t kTries = 12;
+constexpr double kAlong = 2e-3;
+// A vertex of more sides stays until it has fewer, and of those it has only so many are tried: what lies around a
+// vertex is looked at whenever something there changes.
+constexpr size_t kMostSides = 64, kTries = 12;
 constexpr double kRefused = std::numeric_limits<double>::infinity();
 
 double longest_squared(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -92,20 +93,21 @@ double Collapses::flatness(int vertex, const Eigen::Vector3d& at) const {
                            z * (q[2] * z + q[5] * x + q[8]) + q[9]);
 }
 
-void Collapses::spread(int vertex) {
+/// False where there are too many spokes.
+bool Collapses::spread(int vertex) {
   spokes_.clear();
   const int first = surface_.first(vertex);
   int spoke = first;
   do {
     spokes_.push_back(spoke);
     spoke = surface_.turned(spoke);
-  } while (spoke != first);
+  } while (spoke != first && spokes_.size() <= kMostSides);
+  return spoke == first;
 }
 
 Choice Collapses::cheapest(int vertex) {
   Choice choice;
-  if (surface_.is_locked(vertex)) return choice;
-  spread(vertex);
+  if (surface_.is_locked(vertex) || !spread(vertex)) return choice;
   const Eigen::Vector3d at = point(vertex);
   const double weight = kAlong * quadrics_.row(vertex).head<3>().sum();
   auto along = [&](size_t i) { return weight * (point(surface_.to(spokes_[i])) - at).squaredNorm(); };

@@ -23,6 +23,7 @@ class Collapses {
 
   /// Of the sides from the vertex.
   Choice cheapest(int vertex);
+  /// A side that was `cheapest`.
   void collapse(int side);
   /// The one of `others` whose normal is closest to the last that `triangle` had.
   int likest(int triangle, const std::array<int, 2>& others) const;
@@ -31,7 +32,7 @@ class Collapses {
   bool scale(Pace& pace);
   bool measure(Pace& pace);
   bool refer(Pace& pace);
-  void spread(int vertex);
+  bool spread(int vertex);
   Eigen::Vector3d area_vector(int triangle) const;
   Eigen::Vector3d point(int vertex) const { return points_.row(vertex); }
   double flatness(int vertex, const Eigen::Vector3d& at) const;

@@ -1,9 +1,11 @@
 #include "half_edges.h"
 
+#include <algorithm>
+
 namespace swage {
 namespace {
 
-constexpr int kStepsPerLook = 128;
+constexpr int kStepsPerLook = 16;
 constexpr std::chrono::milliseconds kAskEvery{20};
 
 }  // namespace
@@ -35,6 +37,11 @@ bool HalfEdges::join(Pace& pace) {
   for (Eigen::Index v = 2; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
   if (!pace.step(0)) return false;
   for (int side = 0; side < count; ++side) sides_[starts_[from(side) + 1]++] = side;
+  for (int v = 0; v < firsts_.size(); ++v) {
+    if (!pace.step(0)) return false;
+    std::sort(sides_.data() + starts_[v], sides_.data() + starts_[v + 1],
+              [&](int side, int other) { return to(side) < to(other); });
+  }
   for (int side = 0; side < count; ++side) {
     if (!pace.step(0)) return false;
     match(side);
@@ -42,16 +49,18 @@ bool HalfEdges::join(Pace& pace) {
   return true;
 }
 
+/// Sides a to b: those from a, ascending by where they end.
+std::pair<const int*, const int*> HalfEdges::sides_between(int a, int b) const {
+  const int *const first = sides_.data() + starts_[a], *const last = sides_.data() + starts_[a + 1];
+  const int* found = std::lower_bound(first, last, b, [&](int side, int end) { return to(side) < end; });
+  return {found, std::upper_bound(found, last, b, [&](int end, int side) { return end < to(side); })};
+}
+
 void HalfEdges::match(int side) {
   const int a = from(side), b = to(side);
-  int alike = 0, opposite = 0, found = -1;
-  for (int i = starts_[a]; i < starts_[a + 1]; ++i) alike += to(sides_[i]) == b;
-  for (int i = starts_[b]; i < starts_[b + 1]; ++i) {
-    if (to(sides_[i]) != a) continue;
-    ++opposite;
-    found = sides_[i];
-  }
-  if (a != b && alike == 1 && opposite == 1) twins_[side] = found;
+  const auto alike = sides_between(a, b), opposite = sides_between(b, a);
+  if (a == b || alike.second - alike.first != 1 || opposite.second - opposite.first != 1) return;
+  twins_[side] = *opposite.first;
 }
 
 bool HalfEdges::lock(Pace& pace) {

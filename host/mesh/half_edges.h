@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <functional>
+#include <utility>
 
 #include "swage/mesh.h"
 
@@ -51,13 +52,14 @@ class HalfEdges {
  private:
   bool join(Pace& pace);
   bool lock(Pace& pace);
+  std::pair<const int*, const int*> sides_between(int a, int b) const;
   void match(int side);
   void drop(int side);
 
   Triangles triangles_;
   Eigen::VectorXi twins_;           ///< -1 where not exactly one triangle lies across.
   Eigen::VectorXi firsts_;          ///< -1 for a vertex of no triangle.
-  Eigen::VectorXi starts_, sides_;  ///< Sides by the vertex they start from; empty once joined.
+  Eigen::VectorXi starts_, sides_;  ///< Sides by the vertex they start from; empty once built.
   Eigen::VectorX<bool> locked_;
   Eigen::VectorXi marks_;
   int mark_ = 0;

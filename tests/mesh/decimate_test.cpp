@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "adjacency.h"
 #include "measures.h"
@@ -166,6 +167,22 @@ TEST(Decimate, LeavesBoundariesAlone) {
   EXPECT_LT(proxy.mesh.triangles.rows(), mesh.triangles.rows() / 2);
   EXPECT_NEAR(area_vectors(proxy.mesh.positions, proxy.mesh.triangles).rowwise().norm().sum() / 2, 1, 1e-12);
   for (int v = 0; v <= 10; ++v) EXPECT_TRUE(std::binary_search(proxy.vertices.begin(), proxy.vertices.end(), v));
+}
+
+TEST(Decimate, AVertexOfManySidesIsNoBottleneck) {
+  const int sides = 20000;
+  Mesh mesh{Positions(sides + 2, 3), Triangles(2 * sides, 3)};
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    mesh.positions.row(i) << std::cos(angle), std::sin(angle), 0;
+    mesh.triangles.row(i) << i, (i + 1) % sides, sides;
+    mesh.triangles.row(sides + i) << (i + 1) % sides, i, sides + 1;
+  }
+  mesh.positions.bottomRows(2) << 0, 0, 1, 0, 0, -1;
+  const Proxy proxy = decimate(mesh, 100, {});
+  EXPECT_EQ(proxy.mesh.triangles.rows(), 100);
+  expect_closed(proxy.mesh, 2);
+  EXPECT_NEAR(volume(proxy.mesh), volume(mesh), 0.02 * volume(mesh));
 }
 
 TEST(Decimate, IsDeterministic) {
