@@ -1,0 +1,99 @@
+#include "reference_models.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "shapes.h"
+#include "swage/mesh_io.h"
+
+namespace swage::bench {
+namespace {
+
+using Chains = std::vector<std::vector<int>>;
+
+/// As test::subdivided() orders them: the last child of triangle t has the middles of sides 01, 12 and 20 as corners.
+std::map<std::pair<int, int>, int> middles(const Triangles& coarse, const Triangles& fine) {
+  std::map<std::pair<int, int>, int> middles;
+  for (int t = 0; t < coarse.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      middles[std::minmax({coarse(t, k), coarse(t, (k + 1) % 3)})] = fine(4 * t + 3, k);
+    }
+  }
+  return middles;
+}
+
+Chains subdivided(const Chains& chains, const std::map<std::pair<int, int>, int>& middles) {
+  Chains all;
+  for (const std::vector<int>& chain : chains) {
+    std::vector<int>& fine = all.emplace_back();
+    for (const int vertex : chain) {
+      if (!fine.empty()) fine.push_back(middles.at(std::minmax({fine.back(), vertex})));
+      fine.push_back(vertex);
+    }
+  }
+  return all;
+}
+
+Curvatures subdivided(const Curvatures& curvatures) {
+  Curvatures fine(4 * curvatures.rows(), 2);
+  for (Eigen::Index t = 0; t < curvatures.rows(); ++t) fine.middleRows<4>(4 * t).rowwise() = curvatures.row(t);
+  return fine;
+}
+
+}  // namespace
+
+const std::vector<std::string>& reference_names() {
+  static const std::vector<std::string> names = {"cylinder_1kF", "phone",       "cutlery_s26-1", "e_car_extruded",
+                                                 "espresso",     "screwdriver", "m0839_sofa",    "f5-1_antique_chair"};
+  return names;
+}
+
+std::vector<Model> reference_model(const std::string& name) {
+  const std::filesystem::path stem = std::filesystem::path(SWAGE_SHARED) / "oracle/reshape" / name / name;
+  auto with = [&](const char* extension) { return stem.string() + extension; };
+  if (!std::filesystem::exists(with(".obj"))) return {};
+  Model model{name, read_mesh(with(".obj")).mesh, {}, {}};
+  model.options.unit_box_curvatures =
+      read_unit_box_curvatures(with(".fk"), static_cast<int>(model.mesh.triangles.rows()));
+  if (std::filesystem::exists(with(".straight"))) {
+    model.options.straight_chains =
+        read_straight_chains(with(".straight"), static_cast<int>(model.mesh.positions.rows()));
+  }
+  model.gestures = read_gestures(with(".deform"), model.mesh.positions);
+  return {std::move(model)};
+}
+
+std::vector<Model> reference_models() {
+  std::vector<Model> models;
+  for (const std::string& name : reference_names()) {
+    for (Model& model : reference_model(name)) models.push_back(std::move(model));
+  }
+  return models;
+}
+
+Model lifted_cylinder(int segments, int rings) {
+  Model model{"generated_cylinder", test::cylinder(0.5, 1, segments, rings), {}, {{"lifted", {}}}};
+  Gesture& gesture = model.gestures.front();
+  gesture.add(0, model.mesh.positions.row(0));
+  gesture.add(1, model.mesh.positions.row(1) + Eigen::RowVector3d(0, 0.5, 0));
+  return model;
+}
+
+Model subdivided(const Model& model) {
+  Model fine{model.name, test::subdivided(model.mesh), model.options, model.gestures};
+  if (model.options.unit_box_curvatures) {
+    fine.options.unit_box_curvatures = subdivided(*model.options.unit_box_curvatures);
+  }
+  fine.options.straight_chains =
+      subdivided(model.options.straight_chains, middles(model.mesh.triangles, fine.mesh.triangles));
+  return fine;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+
+}  // namespace swage::bench
