@@ -108,4 +108,12 @@ Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_si
   return Eigen::Map<const Transforms>(solution.data(), right_hand_sides.rows(), 9);
 }
 
+Transforms improved_transforms(const BlockSystem& system, const Transforms& right_hand_sides,
+                               const Transforms& transforms) {
+  const Eigen::VectorXd solution =
+      system.improved(Eigen::Map<const Eigen::VectorXd>(right_hand_sides.data(), right_hand_sides.size()),
+                      Eigen::Map<const Eigen::VectorXd>(transforms.data(), transforms.size()));
+  return Eigen::Map<const Transforms>(solution.data(), transforms.rows(), 9);
+}
+
 }  // namespace swage

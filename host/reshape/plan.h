@@ -101,6 +101,10 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
 /// Minimises the transform step's quadratic (eq. 35).
 Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_sides);
 
+/// Brings transforms near its minimum still nearer.
+Transforms improved_transforms(const BlockSystem& system, const Transforms& right_hand_sides,
+                               const Transforms& transforms);
+
 /// #T × 9 identity matrices.
 Transforms identities(Eigen::Index triangle_count);
 

@@ -73,7 +73,9 @@ Positions next_start(ReshapePlan& plan, Iterate& iterate, const Positions& start
 void fit(ReshapePlan& plan, Iterate& iterate) {
   const Stopwatch watch(iterate.seconds["transform_step"]);
   if (plan.options.refactor_every_pass) plan.transforms->factor();
-  iterate.transforms = solve_transforms(*plan.transforms, iterate.right_hand_sides);
+  iterate.transforms = plan.transforms->single()
+                           ? improved_transforms(*plan.transforms, iterate.right_hand_sides, iterate.transforms)
+                           : solve_transforms(*plan.transforms, iterate.right_hand_sides);
 }
 
 void tell(const ReshapePlan& plan, const Iterate& iterate, Report& report) {
@@ -137,6 +139,7 @@ bool Reshape::prepare(const ProgressFn& progress) {
   BlockSystem transforms = transform_system(plan.rest, kind);
   if (!goes_on("factor", 0.4)) return false;
   transforms.factor();
+  if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
   plan.transforms = std::move(transforms);
   return goes_on("prepared", 1);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -10,6 +11,8 @@
 
 namespace swage {
 namespace {
+
+constexpr double kWorstError = 0.1;  // Of a solve in single precision.
 
 /// Dense blocks pay where the factor's columns are long, whatever the size: the simplicial factor was faster at 31
 /// entries a column, by half, and slower at 53 and beyond, 1.6 to 12 times.
@@ -147,6 +150,36 @@ Eigen::MatrixXd BlockSystem::solve(const Eigen::Ref<const Eigen::MatrixXd>& righ
   into_order(right_hand_sides, columns_);
   factor_->solve(columns_);
   return as_given(columns_);
+}
+
+bool BlockSystem::keep_single() {
+  panels_ = factor_->panels();
+  if (!panels_) return false;
+  const Eigen::VectorXd solution =
+      Eigen::VectorXd::NullaryExpr(unknowns(), [](Eigen::Index i) { return std::sin(static_cast<double>(i)); });
+  const Eigen::VectorXd found = improved(times(solution), Eigen::VectorXd::Zero(unknowns()));
+  if ((found - solution).norm() < kWorstError * solution.norm()) {
+    kept_entries_ = factor_->entries();
+    factor_.reset();
+  } else {
+    panels_.reset();
+  }
+  return single();
+}
+
+Eigen::VectorXd BlockSystem::improved(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side,
+                                      const Eigen::Ref<const Eigen::VectorXd>& guess) const {
+  Eigen::MatrixXd left, start;
+  into_order(right_hand_side, left);
+  into_order(guess, start);
+  left -= matrix_.selfadjointView<Eigen::Upper>() * start;
+  panels_->solve(left.col(0));
+  return as_given(start + left);
+}
+
+std::size_t BlockSystem::bytes() const {
+  const std::size_t matrix = static_cast<size_t>(matrix_.nonZeros()) * (sizeof(double) + sizeof(int));
+  return matrix + (panels_ ? panels_->bytes() : static_cast<size_t>(factor_entries()) * sizeof(double));
 }
 
 Eigen::VectorXd BlockSystem::times(const Eigen::Ref<const Eigen::VectorXd>& vector) const {

@@ -39,11 +39,22 @@ class BlockSystem {
   /// The solutions for right-hand sides, a column each, of all groups one after the other. factor() comes first.
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides);
 
+  /// For systems solved over and over from a guess: keeps the factor in single precision alone, where it is made of
+  /// dense blocks and a solve by it leaves less than a tenth of the error. Returns whether it does.
+  bool keep_single();
+  /// A guess at the solution, improved by one solve in single precision for what it leaves of the right-hand side.
+  /// May be called from several threads. keep_single() comes first.
+  Eigen::VectorXd improved(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side,
+                           const Eigen::Ref<const Eigen::VectorXd>& guess) const;
+  bool single() const { return panels_.has_value(); }
+
   /// The matrix times a vector of all groups one after the other.
   Eigen::VectorXd times(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
 
   Eigen::Index unknowns() const { return matrix_.rows(); }
-  Eigen::Index factor_entries() const { return factor_->entries(); }
+  Eigen::Index factor_entries() const { return factor_ ? factor_->entries() : kept_entries_; }
+  /// Of the matrix and its factor.
+  std::size_t bytes() const;
 
  private:
   /// Group after group as given ⇄ in the order of elimination.
@@ -61,6 +72,8 @@ class BlockSystem {
   std::vector<std::vector<int>> above_;  // For each place the places before it that it couples to, ascending.
   SparseMatrix matrix_;                  // Upper triangle, groups in order.
   std::unique_ptr<Factor> factor_;
+  std::optional<Panels> panels_;  // In its place.
+  Eigen::Index kept_entries_ = 0;
   bool analyzed_ = false;
   Eigen::MatrixXd columns_;  // Right-hand sides, then solutions, in order.
 };

@@ -3,7 +3,10 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
 #include <vector>
+
+#include "panels.h"
 
 namespace swage {
 
@@ -23,6 +26,8 @@ class Factor {
   virtual int factorize(const SparseMatrix& matrix) = 0;
   /// Right-hand sides, a column each, become solutions.
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> columns) = 0;
+  /// A copy in single precision, of factors made of dense blocks.
+  virtual std::optional<Panels> panels() const { return std::nullopt; }
   /// Entries held for the factor.
   virtual Eigen::Index entries() const = 0;
 };
