@@ -133,8 +133,9 @@ std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterat
   const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
   VertexSystem& vertices = *plan.vertices;
   const Eigen::VectorXd sphericity = std::exchange(vertices.sphericity, sphericity_values(vertices.system, rest));
-  Positions spread =
-      place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness, {handles, outside});
+  vertices.system.forget_factor();  // Of another problem.
+  Positions spread = place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness,
+                                    {handles, outside}, positions);
   vertices.sphericity = sphericity;
   return spread;
 }

@@ -89,10 +89,10 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
 
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds) {
+                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start) {
   const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
-  vertices.system.factor();
-  const Eigen::VectorXd solution = vertices.system.solve(right_hand_side);
+  const Eigen::VectorXd solution =
+      vertices.system.solve_near(right_hand_side, Eigen::Map<const Eigen::VectorXd>(start.data(), start.size()));
   return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
 }
 

@@ -97,7 +97,7 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
 /// Minimises it.
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds);
+                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start);
 /// Minimises the transform step's quadratic (eq. 35).
 Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_sides);
 

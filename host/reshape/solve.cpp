@@ -27,6 +27,7 @@ Iterate start(ReshapePlan& plan, const Gesture& gesture) {
   iterate.handles = handles_of(gesture, plan.box, plan.weights.handle);
   iterate.transforms = identities(plan.mesh.triangles.rows());
   plan.step->reset();
+  plan.vertices->system.forget_factor();
   return iterate;
 }
 
@@ -54,8 +55,10 @@ double place(ReshapePlan& plan, Iterate& iterate, Positions& positions) {
   plan.step->fit_edges(iterate.transforms, iterate.quadratics);
   iterate.singular = std::max(iterate.singular, iterate.quadratics.singular);
   iterate.before = positions;
+  // The published passes solve exactly.
+  if (plan.options.solver == ReshapeSolver::published) plan.vertices->system.forget_factor();
   positions = place_vertices(*plan.vertices, plan.rest, iterate.quadratics, plan.straight, plan.weights.straightness,
-                             {iterate.handles});
+                             {iterate.handles}, iterate.before);
   const TransformStep::Energy local = plan.step->fit_transforms(positions, iterate.right_hand_sides);
   iterate.energy_by_term.push_back(energy_terms(local, positions, plan.straight, plan.weights, iterate.handles));
   return sum(iterate.energy_by_term.back());

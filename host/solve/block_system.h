@@ -46,6 +46,11 @@ class BlockSystem {
   /// May be called from several threads. keep_single() comes first.
   Eigen::VectorXd improved(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side,
                            const Eigen::Ref<const Eigen::VectorXd>& guess) const;
+  /// The solution from a guess: exactly, by a factor made for it, or to 1e-5 of the guess's error, by conjugate
+  /// gradients that the last factor preconditions, whichever is less work. forget_factor() makes it the former.
+  Eigen::VectorXd solve_near(const Eigen::Ref<const Eigen::VectorXd>& right_hand_side,
+                             const Eigen::Ref<const Eigen::VectorXd>& guess);
+  void forget_factor() { factor_is_near_ = false; }
   bool single() const { return panels_.has_value(); }
 
   /// The matrix times a vector of all groups one after the other.
@@ -74,6 +79,7 @@ class BlockSystem {
   std::unique_ptr<Factor> factor_;
   std::optional<Panels> panels_;  // In its place.
   Eigen::Index kept_entries_ = 0;
+  bool factor_is_near_ = false;  // Whether it is worth preconditioning with.
   bool analyzed_ = false;
   Eigen::MatrixXd columns_;  // Right-hand sides, then solutions, in order.
 };
