@@ -137,6 +137,22 @@ TEST_P(BlockSystemBy, TheSameBytesFromTwoThreadsAtOnce) {
   EXPECT_EQ(other, alone);
 }
 
+TEST_P(BlockSystemBy, SolvesNearAGuess) {
+  Dense both = random_system(300, 1, 8, GetParam());
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(both.matrix.rows(), -1, 2);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(x.size());
+  EXPECT_LT((both.system.solve_near(both.matrix * x, nothing) - x).norm(), 1e-12 * x.norm()) << "the first is exact";
+  // Another matrix near the factored one, and one far from it.
+  for (const double more : {3.0, 1000.0}) {
+    for (int g = 0; g < 300; g += 2) both.system.add(g, more * Eigen::Matrix3d::Identity());
+    for (int i = 0; i < both.matrix.rows(); ++i) both.matrix(i, i) += i / 3 % 2 == 0 ? more : 0;
+    const Eigen::VectorXd guess = x + 0.01 * Eigen::VectorXd::Ones(x.size());
+    EXPECT_LT((both.system.solve_near(both.matrix * x, guess) - x).norm(), 1e-4 * (guess - x).norm()) << more;
+  }
+  both.system.forget_factor();
+  EXPECT_LT((both.system.solve_near(both.matrix * x, nothing) - x).norm(), 1e-12 * x.norm()) << "exact again";
+}
+
 std::vector<std::pair<int, int>> grid(int side) {
   std::vector<std::pair<int, int>> couplings;
   for (int i = 0; i < side * side; ++i) {
@@ -160,6 +176,42 @@ TEST(BlockSystem, SolvesWhateverTheSize) {
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.unknowns(), -1, 1);
     EXPECT_LT((system.solve(system.times(x)) - x).norm(), 1e-11 * x.norm());
   }
+}
+
+/// A factor in single precision alone, of dense blocks or of none.
+TEST_P(BlockSystemBy, ImprovesAGuessInSinglePrecision) {
+  const auto couplings = grid(60);
+  BlockSystem system(60 * 60, 3, couplings, GetParam());
+  const Eigen::MatrixXd own = 8 * Eigen::MatrixXd::Identity(9, 9) + Eigen::MatrixXd::Ones(9, 9);
+  for (int g = 0; g < 60 * 60; ++g) system.add(g, own);
+  for (const auto& [i, j] : couplings) {
+    for (int r = 0; r < 3; ++r) system.add(i, j, r, -Eigen::Matrix3d::Identity());
+  }
+  system.factor();
+  const auto entries = system.factor_entries();
+  const std::size_t bytes = system.bytes();
+  ASSERT_EQ(system.keep_single(), GetParam() == FactorKind::supernodal);
+  if (!system.single()) return;
+  EXPECT_EQ(system.factor_entries(), entries);
+  EXPECT_LT(system.bytes(), bytes);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.unknowns(), -1, 2), side = system.times(x);
+  Eigen::VectorXd guess = Eigen::VectorXd::Zero(x.size());
+  for (const double left : {1e-4, 1e-8, 1e-12}) {
+    const Eigen::VectorXd better = system.improved(side, guess);
+    EXPECT_LT((better - x).norm(), left * x.norm());
+    EXPECT_EQ(system.improved(side, guess), better) << "the same bytes";
+    guess = better;
+  }
+}
+
+TEST_P(BlockSystemBy, KeepsTheFactorWhereSinglePrecisionDoesNotDo) {
+  BlockSystem system(2, 1, {{0, 1}}, GetParam());
+  const double near = 1 + 1e-12;
+  for (int g = 0; g < 2; ++g) system.add(g, near * Eigen::Matrix3d::Identity());
+  system.add(0, 1, 0, -Eigen::Matrix3d::Identity());
+  system.factor();
+  EXPECT_FALSE(system.keep_single());
+  EXPECT_LT(system.solve(Eigen::VectorXd::Zero(6)).norm(), 1e-12);
 }
 
 TEST(BlockSystem, WithoutCholmodSaysSo) {

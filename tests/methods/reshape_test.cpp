@@ -101,7 +101,8 @@ TEST(Reshape, OrderOfVerticesAndTrianglesDoesNotMatter) {
   const ReshapeResult result = reshape(shuffled.positions, shuffled.triangles, renamed);
   EXPECT_EQ(result.report.passes, plain.report.passes);
   const Positions back = result.positions(place, Eigen::all);
-  EXPECT_LT(deviation(plain.positions, back), 1e-9);
+  // Passes stop near their minima, and rounding decides where.
+  EXPECT_LT(deviation(plain.positions, back), 1e-8);
 }
 
 TEST(Reshape, SolvingAgainGivesTheSameBytes) {
@@ -117,10 +118,15 @@ TEST(Reshape, SolvingAgainGivesTheSameBytes) {
 TEST(Reshape, RefactoringEveryPassChangesNothing) {
   const Mesh mesh = part();
   const Gesture gesture = lift_top(mesh, {0, 0.3, 0});
-  ReshapeOptions as_published;
-  as_published.refactor_every_pass = true;
-  EXPECT_EQ(reshape(mesh.positions, mesh.triangles, gesture, as_published).positions,
-            reshape(mesh.positions, mesh.triangles, gesture).positions);
+  ReshapeOptions options;
+  auto result = [&](bool every_pass) {
+    options.refactor_every_pass = every_pass;
+    return reshape(mesh.positions, mesh.triangles, gesture, options).positions;
+  };
+  // Steady passes are otherwise solved near their minima.
+  EXPECT_LT(deviation(result(true), result(false)), 1e-7);
+  options.solver = ReshapeSolver::published;
+  EXPECT_EQ(result(true), result(false));
 }
 
 #ifdef _OPENMP
