@@ -45,9 +45,9 @@ Curvatures subdivided(const Curvatures& curvatures) {
 }  // namespace
 
 const std::vector<std::string>& reference_names() {
-  static const std::vector<std::string> names = {"cylinder_1kF", "phone",       "cutlery_s26-1", "e_car_extruded",
+  static const std::vector<std::string> kNames = {"cylinder_1kF", "phone",       "cutlery_s26-1", "e_car_extruded",
                                                  "espresso",     "screwdriver", "m0839_sofa",    "f5-1_antique_chair"};
-  return names;
+  return kNames;
 }
 
 std::vector<Model> reference_model(const std::string& name) {

@@ -117,37 +117,46 @@ void Panels::copy(const Source& source, const std::vector<int>& place) {
     }
     values_.insert(values_.end(), source.values + source.value_offsets[at],
                    source.values + source.value_offsets[at + 1]);
-    most_below_ = std::max(most_below_, panel.below);
+    most_rows_ = std::max(most_rows_, panel.columns + panel.below);
     panels_.push_back(panel);
   }
 }
 
-Panels::Matrix Panels::square(const Panel& panel) const {
-  return {values_.data() + panel.values, panel.columns, panel.columns,
-          Eigen::OuterStride<>(panel.columns + panel.below)};
-}
-
-Panels::Matrix Panels::below(const Panel& panel) const {
-  return {values_.data() + panel.values + panel.columns, panel.below, panel.columns,
-          Eigen::OuterStride<>(panel.columns + panel.below)};
-}
-
 void Panels::forward(const Panel& panel, Eigen::VectorXf& x, float* trunk, Eigen::VectorXf& work) const {
+  const int rows_of_panel = panel.columns + panel.below;
   auto own = x.segment(panel.first, panel.columns);
-  square(panel).triangularView<Eigen::Lower>().solveInPlace(own);
-  if (panel.below == 0) return;
-  work.head(panel.below).noalias() = below(panel) * own;
+  work.head(rows_of_panel).setZero();
+  work.head(panel.columns) = own;
+  for (int c = 0; c < panel.columns; ++c) {
+    const Column column = below_diagonal(panel, c);
+    own[c] = work[c] / diagonal(panel, c);
+    work.segment(c + 1, column.size()) -= own[c] * column;
+  }
   const int* rows = rows_.data() + panel.rows;
-  for (int i = 0; i < panel.inside; ++i) x[rows[i]] -= work[i];
-  for (int i = panel.inside; i < panel.below; ++i) trunk[rows[i] - trunk_] -= work[i];
+  for (int i = 0; i < panel.inside; ++i) x[rows[i]] += work[panel.columns + i];
+  for (int i = panel.inside; i < panel.below; ++i) trunk[rows[i] - trunk_] += work[panel.columns + i];
 }
 
 void Panels::backward(const Panel& panel, Eigen::VectorXf& x, Eigen::VectorXf& work) const {
   auto own = x.segment(panel.first, panel.columns);
   const int* rows = rows_.data() + panel.rows;
-  for (int i = 0; i < panel.below; ++i) work[i] = x[rows[i]];
-  if (panel.below > 0) own.noalias() -= below(panel).transpose() * work.head(panel.below);
-  square(panel).transpose().triangularView<Eigen::Upper>().solveInPlace(own);
+  work.head(panel.columns) = own;
+  for (int i = 0; i < panel.below; ++i) work[panel.columns + i] = x[rows[i]];
+  for (int c = panel.columns - 1; c >= 0; --c) {
+    const Column column = below_diagonal(panel, c);
+    work[c] = (work[c] - column.dot(work.segment(c + 1, column.size()))) / diagonal(panel, c);
+  }
+  own = work.head(panel.columns);
+}
+
+float Panels::diagonal(const Panel& panel, int column) const {
+  return values_[static_cast<size_t>(panel.values + std::ptrdiff_t{column} * (panel.columns + panel.below) + column)];
+}
+
+Panels::Column Panels::below_diagonal(const Panel& panel, int column) const {
+  const int rows_of_panel = panel.columns + panel.below;
+  return {values_.data() + panel.values + std::ptrdiff_t{column} * rows_of_panel + column + 1,
+          rows_of_panel - column - 1};
 }
 
 void Panels::solve(Eigen::Ref<Eigen::VectorXd> column) const {
@@ -158,19 +167,19 @@ void Panels::solve(Eigen::Ref<Eigen::VectorXd> column) const {
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(x.size() - trunk_, kBranches);
 #pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads)
   for (int b = 0; b < kBranches; ++b) {
-    Eigen::VectorXf work(most_below_);
+    Eigen::VectorXf work(most_rows_);
     float* trunk = sums.data() + b * sums.rows();
     for (int p = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)]; p < branch_ends_[static_cast<size_t>(b)]; ++p) {
       forward(panels_[static_cast<size_t>(p)], x, trunk, work);
     }
   }
-  Eigen::VectorXf work(most_below_);
+  Eigen::VectorXf work(most_rows_);
   x.tail(sums.rows()) += sums.rowwise().sum();
   for (int p = branch_ends_.back(); p < panel_count; ++p) forward(panels_[static_cast<size_t>(p)], x, nullptr, work);
   for (int p = panel_count - 1; p >= branch_ends_.back(); --p) backward(panels_[static_cast<size_t>(p)], x, work);
 #pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads)
   for (int b = 0; b < kBranches; ++b) {
-    Eigen::VectorXf own_work(most_below_);
+    Eigen::VectorXf own_work(most_rows_);
     const int begin = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)];
     for (int p = branch_ends_[static_cast<size_t>(b)] - 1; p >= begin; --p) {
       backward(panels_[static_cast<size_t>(p)], x, own_work);

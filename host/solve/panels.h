@@ -35,13 +35,13 @@ class Panels {
     int inside;
     std::ptrdiff_t rows, values;
   };
-  using Matrix = Eigen::Map<const Eigen::MatrixXf, 0, Eigen::OuterStride<>>;
+  using Column = Eigen::Map<const Eigen::VectorXf>;
 
   /// Each of the source's columns' place here.
   std::vector<int> cut(const Source& source);
   void copy(const Source& source, const std::vector<int>& place);
-  Matrix square(const Panel& panel) const;
-  Matrix below(const Panel& panel) const;
+  float diagonal(const Panel& panel, int column) const;
+  Column below_diagonal(const Panel& panel, int column) const;
   void forward(const Panel& panel, Eigen::VectorXf& x, float* trunk, Eigen::VectorXf& work) const;
   void backward(const Panel& panel, Eigen::VectorXf& x, Eigen::VectorXf& work) const;
 
@@ -52,7 +52,7 @@ class Panels {
   std::vector<int> rows_;
   std::vector<float> values_;
   int trunk_ = 0;  // Its first column.
-  int most_below_ = 0;
+  int most_rows_ = 0;
 };
 
 }  // namespace swage
