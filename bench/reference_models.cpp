@@ -46,7 +46,7 @@ Curvatures subdivided(const Curvatures& curvatures) {
 
 const std::vector<std::string>& reference_names() {
   static const std::vector<std::string> kNames = {"cylinder_1kF", "phone",       "cutlery_s26-1", "e_car_extruded",
-                                                 "espresso",     "screwdriver", "m0839_sofa",    "f5-1_antique_chair"};
+                                                  "espresso",     "screwdriver", "m0839_sofa",    "f5-1_antique_chair"};
   return kNames;
 }
 
