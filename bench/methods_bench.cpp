@@ -5,10 +5,15 @@
 // solve. `summary` has the medians of these ratios, and the smallest, over the authors' gestures on models above 3,800
 // triangles: a gesture counts once, so a model with four of them counts four times.
 #include <benchmark/benchmark.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bench_main.h"
@@ -132,6 +137,84 @@ void solve_again(benchmark::State& state, const Edit& edit) {
   time_solves(state, "again/" + edit.name(), [&] { return prepared.solve(edit.gesture); });
 }
 
+/// The gesture on its way from rest: `part` of each target's movement.
+Gesture part_of(const Edit& edit, double part) {
+  Gesture partial;
+  for (const auto& [vertex, target] : edit.gesture.targets) {
+    const Eigen::Vector3d rest = edit.model.mesh.positions.row(vertex);
+    partial.add(vertex, rest + part * (target - rest));
+  }
+  return partial;
+}
+
+/// Ten steps from rest to the gesture, each from the result of the last; beside them the passes of each from rest.
+void solve_dragged(benchmark::State& state, const Edit& edit) {
+  constexpr int kSteps = 10;
+  Reshape prepared(edit.model.mesh.positions, edit.model.mesh.triangles, edit.model.options);
+  double cold_passes = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    cold_passes += prepared.solve(part_of(edit, static_cast<double>(step) / kSteps)).report.passes;
+  }
+  double passes = 0, seconds = 0;
+  for (auto _ : state) {
+    double of_drag = 0;
+    {
+      const Stopwatch watch(of_drag);
+      ReshapeResult last = prepared.solve(part_of(edit, 1.0 / kSteps));
+      passes += last.report.passes;
+      for (int step = 2; step <= kSteps; ++step) {
+        last = prepared.solve(part_of(edit, static_cast<double>(step) / kSteps), last);
+        passes += last.report.passes;
+      }
+    }
+    state.SetIterationTime(of_drag);
+    seconds += of_drag;
+  }
+  const double steps = kSteps * static_cast<double>(state.iterations());
+  state.counters["passes_a_step"] = passes / steps;
+  state.counters["passes_a_step_from_rest"] = cold_passes / kSteps;
+  state.counters["ms_a_step"] = 1e3 * seconds / steps;
+}
+
+double seconds_of(const std::function<void()>& work) {
+  double seconds = 0;
+  {
+    const Stopwatch watch(seconds);
+    work();
+  }
+  return seconds;
+}
+
+/// As many solves at once as there are cores, each in one thread, beside as many one after the other in all threads.
+void solve_parallel(benchmark::State& state, const Edit& edit) {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  Reshape prepared(edit.model.mesh.positions, edit.model.mesh.triangles, edit.model.options);
+  const auto at_once = [&] {
+    std::vector<std::thread> threads;
+    for (unsigned c = 0; c < cores; ++c) {
+      threads.emplace_back([&] {
+#ifdef _OPENMP
+        omp_set_num_threads(1);
+#endif
+        prepared.solve(edit.gesture);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+  };
+  at_once();  // Makes what later solves go on with.
+  std::vector<double> together, in_turn;
+  for (auto _ : state) {
+    together.push_back(seconds_of(at_once));
+    in_turn.push_back(seconds_of([&] {
+      for (unsigned c = 0; c < cores; ++c) prepared.solve(edit.gesture);
+    }));
+    state.SetIterationTime(together.back());
+  }
+  state.counters["at_once"] = cores;
+  state.counters["gestures_a_second"] = cores / median(together);
+  state.counters["gestures_a_second_in_turn"] = cores / median(in_turn);
+}
+
 void solve_as_published(benchmark::State& state, const Edit& edit) {
   ReshapeOptions options = edit.model.options;
   options.solver = ReshapeSolver::published;
@@ -185,6 +268,8 @@ void register_all() {
       };
       add_solve("solve_first", 5, solve_first);
       add_solve("solve_again", 5, solve_again);
+      add_solve("solve_dragged", 3, solve_dragged);
+      add_solve("solve_parallel", 3, solve_parallel);
       add_solve("solve_as_published", 1, solve_as_published);
     }
   }

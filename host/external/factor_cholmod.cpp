@@ -9,6 +9,7 @@
 #endif
 
 #include "factor.h"
+#include "pool.h"
 #include "swage/error.h"
 
 extern "C" {
@@ -79,6 +80,23 @@ void check(const cholmod_common& common) {
   }
 }
 
+/// What a solve works in, kept from one to the next.
+struct Room {
+  Room() {
+    cholmod_start(&common);
+    common.print = 0;
+  }
+  ~Room() {
+    for (cholmod_dense** array : {&solution, &permuted, &gathered}) cholmod_free_dense(array, &common);
+    cholmod_finish(&common);
+  }
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+
+  cholmod_common common;
+  cholmod_dense *solution = nullptr, *permuted = nullptr, *gathered = nullptr;
+};
+
 class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper, Supernodal> {
  public:
   Supernodal() {
@@ -88,10 +106,6 @@ class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper,
     m_cholmod.nmethods = 1;  // The order is the matrix's.
     m_cholmod.method[0].ordering = CHOLMOD_NATURAL;
   }
-  ~Supernodal() override {
-    for (cholmod_dense** workspace : {&solution_, &permuted_, &gathered_}) cholmod_free_dense(workspace, &m_cholmod);
-  }
-
   void analyze(const SparseMatrix& matrix) override {
     analyzePattern(matrix);
     check(m_cholmod);
@@ -106,14 +120,15 @@ class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper,
   }
 
   // Eigen's own would allocate a solution and two workspaces, and copy.
-  void solve(Eigen::Ref<Eigen::MatrixXd> columns) override {
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const override {
     const OneThread one_thread;
+    const auto room = rooms_.lend([] { return std::make_unique<Room>(); });
     cholmod_dense sides = Eigen::viewAsCholmod(columns);
-    cholmod_solve2(CHOLMOD_A, m_cholmodFactor, &sides, nullptr, &solution_, nullptr, &permuted_, &gathered_,
-                   &m_cholmod);
-    check(m_cholmod);
-    columns =
-        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution_->x), columns.rows(), columns.cols());
+    cholmod_solve2(CHOLMOD_A, m_cholmodFactor, &sides, nullptr, &room->solution, nullptr, &room->permuted,
+                   &room->gathered, &room->common);
+    check(room->common);
+    columns = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(room->solution->x), columns.rows(),
+                                                columns.cols());
   }
 
   std::optional<Panels> panels() const override {
@@ -144,7 +159,7 @@ class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper,
     return -1;
   }
 
-  cholmod_dense *solution_ = nullptr, *permuted_ = nullptr, *gathered_ = nullptr;
+  mutable Pool<Room> rooms_;
 };
 
 }  // namespace

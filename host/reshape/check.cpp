@@ -72,6 +72,23 @@ void check_options(const ReshapeOptions& options, const Mesh& mesh) {
   }
 }
 
+void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh) {
+  if (options.solver == ReshapeSolver::published) {
+    throw InvalidInput(
+        "Reshape::solve: the published solver's answer depends on where it starts: solve without a start");
+  }
+  const std::string name = "Reshape::solve: start.";
+  auto check_matrix = [&](const char* matrix, const auto& given, Eigen::Index rows, const char* due) {
+    if (given.rows() != rows) {
+      throw InvalidInput(name + matrix + ": " + std::to_string(given.rows()) + " rows, but the mesh has " +
+                         std::to_string(rows) + due);
+    }
+    if (!given.allFinite()) throw InvalidInput(name + matrix + ": not finite");
+  };
+  check_matrix("unfinished", start.unfinished, mesh.positions.rows(), " vertices");
+  check_matrix("transforms", start.transforms, mesh.triangles.rows(), " triangles");
+}
+
 void check_surface(const Mesh& mesh, const Edges& edges) {
   const Positions areas = area_vectors(mesh.positions, mesh.triangles);
   for (int t = 0; t < mesh.triangles.rows(); ++t) check_shape(mesh, areas, t);

@@ -119,7 +119,7 @@ Transforms rigid_outside(const std::vector<int>& zone, const Transforms& transfo
 
 }  // namespace
 
-std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterate, const Positions& positions) {
+std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions) {
   const Positions normals = unit_normals(positions, plan.rest.triangles);
   const std::vector<int> zone = dimple_zone(iterate.handles, plan.rest, normals);
   if (std::all_of(zone.begin(), zone.end(), [](int ring) { return ring == 0; })) return std::nullopt;
@@ -131,13 +131,11 @@ std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterat
   handles.weight =
       plan.options.solver == ReshapeSolver::published ? kPublishedHandleWeight : kLetGo * plan.weights.handle;
   const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
-  VertexSystem& vertices = *plan.vertices;
-  const Eigen::VectorXd sphericity = std::exchange(vertices.sphericity, sphericity_values(vertices.system, rest));
+  VertexSystem& vertices = iterate.work.vertices;
+  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
   vertices.system.forget_factor();  // Of another problem.
-  Positions spread = place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness,
-                                    {handles, outside}, positions);
-  vertices.sphericity = sphericity;
-  return spread;
+  return place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness, {handles, outside},
+                        positions);
 }
 
 }  // namespace swage

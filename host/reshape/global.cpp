@@ -78,7 +78,7 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds) {
   Quadratic quadratic{vertices.system, Eigen::VectorXd::Zero(vertices.system.unknowns())};
-  vertices.system.values() = vertices.sphericity;
+  vertices.system.values() = *vertices.sphericity;
   add_edges(quadratic, rest, quadratics);
   for (const StraightTriple& triple : straight) {
     add_straight(quadratic, triple, quadratics.target_lengths, straightness_weight);
@@ -102,7 +102,7 @@ Transforms identities(Eigen::Index triangle_count) {
   return identity.replicate(triangle_count, 1);
 }
 
-Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_sides) {
+Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides) {
   const Eigen::Map<const Eigen::VectorXd> flat(right_hand_sides.data(), right_hand_sides.size());
   const Eigen::VectorXd solution = system.solve(flat);
   return Eigen::Map<const Transforms>(solution.data(), right_hand_sides.rows(), 9);

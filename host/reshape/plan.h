@@ -1,6 +1,8 @@
 // What a prepared reshaping keeps, and the verbs that solve() is told in.
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "anderson.h"
 #include "block_system.h"
 #include "measures.h"
+#include "pool.h"
 #include "stopwatch.h"
 #include "swage/reshape.h"
 
@@ -29,7 +32,7 @@ struct Holds {
 /// The vertex step's system and what goes into it besides the edges.
 struct VertexSystem {
   BlockSystem system;
-  Eigen::VectorXd sphericity;  ///< The matrix's values of the sphericity term alone.
+  std::shared_ptr<const Eigen::VectorXd> sphericity;  ///< The matrix's values of the sphericity term alone.
 };
 
 /// Weights of the terms in each step.
@@ -38,6 +41,14 @@ struct StepWeights {
   double connect, similarity, transform_normal, transform_sphericity, regularizer;  // Transform step.
 };
 
+/// What a solve changes and a later one goes on with: memory and symbolic analyses, never values.
+struct Workspace {
+  std::unique_ptr<TransformStep> step;
+  VertexSystem vertices;
+  std::optional<BlockSystem> transforms;  ///< Where every pass is to factor it.
+};
+
+/// Solves read it, several at once, but for the pool.
 struct ReshapePlan {
   ReshapeOptions options;
   Mesh mesh;  ///< As given, mesh units.
@@ -48,30 +59,34 @@ struct ReshapePlan {
   // Filled by prepare().
   StepWeights weights = {};
   TransformStep::Rest rest = {};
-  std::unique_ptr<TransformStep> step = {};
-  std::optional<VertexSystem> vertices = {};
+  std::optional<VertexSystem> vertices = {};  ///< Never factored: workspaces have copies.
   std::optional<BlockSystem> transforms = {};
   double prepare_seconds = 0;
+
+  std::mutex preparing = {};
+  mutable Pool<Workspace> workspaces = {};
 
   bool prepared() const { return transforms.has_value(); }
 };
 
 /// One solve's state.
 struct Iterate {
+  Workspace& work;
   Anderson acceleration{0};
-  Holds handles;
-  Transforms transforms;
-  Positions before;             ///< As the last pass found them.
-  Transforms right_hand_sides;  ///< Of the transform step, for the positions last placed.
-  TransformStep::EdgeQuadratics quadratics;
-  std::vector<std::map<std::string, double>> energy_by_term;  ///< Of each pass.
+  Holds handles = {};
+  Transforms transforms = {};
+  Positions before = {};             ///< As the last pass found them.
+  Transforms right_hand_sides = {};  ///< Of the transform step, for the positions last placed.
+  TransformStep::EdgeQuadratics quadratics = {};
+  std::vector<std::map<std::string, double>> energy_by_term = {};  ///< Of each pass.
   int singular = 0;  ///< Most triangles in a pass whose transform had to be damped.
-  std::map<std::string, double> seconds;
+  std::map<std::string, double> seconds = {};
 };
 
 // check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);
 void check_surface(const Mesh& mesh, const Edges& edges);
+void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh);
 
 // weights.cpp
 /// As the options' solver takes them on a mesh in the unit box.
@@ -99,7 +114,7 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds, const Positions& start);
 /// Minimises the transform step's quadratic (eq. 35).
-Transforms solve_transforms(BlockSystem& system, const Transforms& right_hand_sides);
+Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides);
 
 /// Brings transforms near its minimum still nearer.
 Transforms improved_transforms(const BlockSystem& system, const Transforms& right_hand_sides,
@@ -117,6 +132,6 @@ double sum(const std::map<std::string, double>& terms);
 
 // finish.cpp
 /// Where a handle sits in a dimple, the positions with its error spread over the rings around (appendix A).
-std::optional<Positions> spread_dimples(ReshapePlan& plan, const Iterate& iterate, const Positions& positions);
+std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions);
 
 }  // namespace swage

@@ -157,7 +157,7 @@ VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<St
     if (triple.before != triple.after) couplings.emplace_back(triple.before, triple.after);
   }
   VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings, kind), {}};
-  vertices.sphericity = sphericity_values(vertices.system, rest);
+  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
   return vertices;
 }
 

@@ -21,21 +21,47 @@ Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
   return handles;
 }
 
-Iterate start(ReshapePlan& plan, const Gesture& gesture) {
-  Iterate iterate;
+std::unique_ptr<Workspace> workspace(const ReshapePlan& plan) {
+  auto work = std::make_unique<Workspace>(Workspace{
+      plan.options.backend->transform(plan.rest), {plan.vertices->system.unfactored(), plan.vertices->sphericity}, {}});
+  if (plan.options.refactor_every_pass) work->transforms = plan.transforms->unfactored();
+  return work;
+}
+
+/// Where passes start, in the unit box.
+struct Start {
+  Positions positions;
+  Transforms transforms;
+  bool warm = false;  ///< Whether another result's.
+};
+
+Start start_of(const ReshapePlan& plan, const ReshapeResult* result) {
+  if (!result) return {plan.box.into(plan.mesh.positions), identities(plan.mesh.triangles.rows())};
+  return {plan.box.into(result->unfinished), result->transforms, true};
+}
+
+/// Whatever the workspace was used for before, it starts as new.
+Iterate begin(const ReshapePlan& plan, Workspace& work, const Gesture& gesture, const Start& start) {
+  Iterate iterate{work};
   iterate.acceleration = Anderson(plan.options.acceleration_window);
   iterate.handles = handles_of(gesture, plan.box, plan.weights.handle);
-  iterate.transforms = identities(plan.mesh.triangles.rows());
-  plan.step->reset();
-  plan.vertices->system.forget_factor();
+  iterate.transforms = start.transforms;
+  work.step->reset();
+  work.vertices.system.forget_factor();
+  work.vertices.sphericity = plan.vertices->sphericity;
+  if (start.warm) {  // For the length weights.
+    work.step->fit_edges(iterate.transforms, iterate.quadratics);
+    work.step->fit_transforms(start.positions, iterate.right_hand_sides);
+  }
   return iterate;
 }
 
-StopRule stop_rule(const ReshapePlan& plan) {
+StopRule stop_rule(const ReshapePlan& plan, bool warm) {
   StopRule stop;
   stop.pass_limit = plan.options.pass_limit;
   if (plan.options.solver == ReshapeSolver::steady) {
     stop.by_energy = false;
+    if (warm) stop.first_test = 1;
     stop.movement = plan.options.movement * plan.rest.mean_edge_length;
     return stop;
   }
@@ -50,35 +76,36 @@ std::optional<FactorKind> factor_kind(const ReshapeOptions& options) {
   return std::nullopt;
 }
 
-double place(ReshapePlan& plan, Iterate& iterate, Positions& positions) {
+double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions) {
   const Stopwatch watch(iterate.seconds["vertex_step"]);
-  plan.step->fit_edges(iterate.transforms, iterate.quadratics);
+  iterate.work.step->fit_edges(iterate.transforms, iterate.quadratics);
   iterate.singular = std::max(iterate.singular, iterate.quadratics.singular);
   iterate.before = positions;
   // The published passes solve exactly.
-  if (plan.options.solver == ReshapeSolver::published) plan.vertices->system.forget_factor();
-  positions = place_vertices(*plan.vertices, plan.rest, iterate.quadratics, plan.straight, plan.weights.straightness,
-                             {iterate.handles}, iterate.before);
-  const TransformStep::Energy local = plan.step->fit_transforms(positions, iterate.right_hand_sides);
+  if (plan.options.solver == ReshapeSolver::published) iterate.work.vertices.system.forget_factor();
+  positions = place_vertices(iterate.work.vertices, plan.rest, iterate.quadratics, plan.straight,
+                             plan.weights.straightness, {iterate.handles}, iterate.before);
+  const TransformStep::Energy local = iterate.work.step->fit_transforms(positions, iterate.right_hand_sides);
   iterate.energy_by_term.push_back(energy_terms(local, positions, plan.straight, plan.weights, iterate.handles));
   return sum(iterate.energy_by_term.back());
 }
 
 /// The right-hand sides are those of the positions last placed; of a start combined from several they are made anew.
-Positions next_start(ReshapePlan& plan, Iterate& iterate, const Positions& start, const Positions& end) {
+Positions next_start(Iterate& iterate, const Positions& start, const Positions& end) {
   const Stopwatch watch(iterate.seconds["acceleration"]);
   if (iterate.energy_by_term.size() < kPlainPasses) return end;
   Positions next = iterate.acceleration.next(start, end);
-  plan.step->fit_transforms(next, iterate.right_hand_sides);
+  iterate.work.step->fit_transforms(next, iterate.right_hand_sides);
   return next;
 }
 
-void fit(ReshapePlan& plan, Iterate& iterate) {
+void fit(const ReshapePlan& plan, Iterate& iterate) {
   const Stopwatch watch(iterate.seconds["transform_step"]);
-  if (plan.options.refactor_every_pass) plan.transforms->factor();
-  iterate.transforms = plan.transforms->single()
-                           ? improved_transforms(*plan.transforms, iterate.right_hand_sides, iterate.transforms)
-                           : solve_transforms(*plan.transforms, iterate.right_hand_sides);
+  std::optional<BlockSystem>& own = iterate.work.transforms;
+  if (own) own->factor();
+  const BlockSystem& system = own ? *own : *plan.transforms;
+  iterate.transforms = system.single() ? improved_transforms(system, iterate.right_hand_sides, iterate.transforms)
+                                       : solve_transforms(system, iterate.right_hand_sides);
 }
 
 void tell(const ReshapePlan& plan, const Iterate& iterate, Report& report) {
@@ -101,28 +128,8 @@ ProgressFn after_preparation(const ProgressFn& progress) {
   };
 }
 
-}  // namespace
-
-Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options) {
-  check(positions, triangles);
-  Mesh mesh{positions, triangles};
-  check_options(options, mesh);
-  Edges edges = edges_of(mesh.triangles);
-  check_surface(mesh, edges);
-  std::vector<StraightTriple> straight =
-      straight_triples(options.straight_chains, edges, static_cast<int>(mesh.positions.rows()));
-  const UnitBox box = unit_box(mesh.positions);
-  plan_ =
-      std::make_unique<ReshapePlan>(ReshapePlan{options, std::move(mesh), box, std::move(edges), std::move(straight)});
-  if (!plan_->options.backend) plan_->options.backend = cpu_backend();
-}
-
-Reshape::~Reshape() = default;
-Reshape::Reshape(Reshape&&) noexcept = default;
-Reshape& Reshape::operator=(Reshape&&) noexcept = default;
-
-bool Reshape::prepare(const ProgressFn& progress) {
-  ReshapePlan& plan = *plan_;
+bool prepare(ReshapePlan& plan, const ProgressFn& progress) {
+  const std::lock_guard lock(plan.preparing);
   if (plan.prepared()) return true;
   auto goes_on = [&](const char* stage, double part) {
     return !progress || progress({stage, 0, plan.options.pass_limit, part * kPrepared, 0});
@@ -135,7 +142,6 @@ bool Reshape::prepare(const ProgressFn& progress) {
                                     : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
   plan.weights = step_weights(plan.options, unit_mesh);
   plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
-  plan.step = plan.options.backend->transform(plan.rest);
   if (!goes_on("order", 0.2)) return false;
   const std::optional<FactorKind> kind = factor_kind(plan.options);
   plan.vertices = vertex_system(plan.rest, plan.straight, kind);
@@ -144,25 +150,30 @@ bool Reshape::prepare(const ProgressFn& progress) {
   transforms.factor();
   if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
   plan.transforms = std::move(transforms);
+  const auto first = plan.workspaces.lend([&] { return workspace(plan); });  // For the first solve, as fast as any.
+  if (first->transforms) std::swap(*first->transforms, *plan.transforms);    // It has analysed its pattern.
   return goes_on("prepared", 1);
 }
 
-ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress) {
-  ReshapePlan& plan = *plan_;
-  check(gesture, plan.mesh.positions, plan.mesh.triangles);
+ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const ReshapeResult* from,
+                    const ProgressFn& progress) {
+  const ReshapePlan& plan = changing;
+  Start start = start_of(plan, from);
   ReshapeResult result;
-  result.positions = result.unfinished = plan.mesh.positions;
+  result.positions = result.unfinished = from ? from->unfinished : plan.mesh.positions;
+  result.transforms = start.transforms;
   result.report.stop = Termination::cancelled;
-  if (!prepare(progress)) return result;
+  if (!prepare(changing, progress)) return result;
 
-  Iterate iterate = start(plan, gesture);
-  Positions positions = plan.rest.vertices;
+  const auto work = plan.workspaces.lend([&] { return workspace(plan); });
+  Iterate iterate = begin(plan, *work, gesture, start);
+  Positions positions = std::move(start.positions);
   Alternation steps{[&](Positions& placed) { return place(plan, iterate, placed); },
                     [&](const Positions&) { fit(plan, iterate); }};
   if (plan.options.solver == ReshapeSolver::steady) {
-    steps.next = [&](const Positions& from, const Positions& to) { return next_start(plan, iterate, from, to); };
+    steps.next = [&](const Positions& before, const Positions& end) { return next_start(iterate, before, end); };
   }
-  result.report = alternate(stop_rule(plan), after_preparation(progress), positions, steps);
+  result.report = alternate(stop_rule(plan, start.warm), after_preparation(progress), positions, steps);
   result.unfinished = plan.box.back(positions);
   if (plan.options.finalise && result.report.stop != Termination::cancelled) {
     if (const std::optional<Positions> spread = spread_dimples(plan, iterate, positions)) {
@@ -171,8 +182,41 @@ ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress)
     }
   }
   result.positions = plan.box.back(positions);
+  result.transforms = std::move(iterate.transforms);
   tell(plan, iterate, result.report);
   return result;
+}
+
+}  // namespace
+
+Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options) {
+  check(positions, triangles);
+  Mesh mesh{positions, triangles};
+  check_options(options, mesh);
+  Edges edges = edges_of(mesh.triangles);
+  check_surface(mesh, edges);
+  std::vector<StraightTriple> straight =
+      straight_triples(options.straight_chains, edges, static_cast<int>(mesh.positions.rows()));
+  const UnitBox box = unit_box(mesh.positions);
+  plan_.reset(new ReshapePlan{options, std::move(mesh), box, std::move(edges), std::move(straight)});
+  if (!plan_->options.backend) plan_->options.backend = cpu_backend();
+}
+
+Reshape::~Reshape() = default;
+Reshape::Reshape(Reshape&&) noexcept = default;
+Reshape& Reshape::operator=(Reshape&&) noexcept = default;
+
+bool Reshape::prepare(const ProgressFn& progress) { return swage::prepare(*plan_, progress); }
+
+ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress) {
+  check(gesture, plan_->mesh.positions, plan_->mesh.triangles);
+  return swage::solve(*plan_, gesture, nullptr, progress);
+}
+
+ReshapeResult Reshape::solve(const Gesture& gesture, const ReshapeResult& start, const ProgressFn& progress) {
+  check(gesture, plan_->mesh.positions, plan_->mesh.triangles);
+  check_start(start, plan_->options, plan_->mesh);
+  return swage::solve(*plan_, gesture, &start, progress);
 }
 
 ReshapeResult reshape(const PositionsRef& positions, const TrianglesRef& triangles, const Gesture& gesture,

@@ -36,16 +36,32 @@ std::vector<int> elimination_order(const SparseMatrix& graph) {
 
 BlockSystem::BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings,
                          std::optional<FactorKind> kind)
-    : width_(3 * rows_per_group) {
-  order(group_count, couplings);
-  const std::int64_t entries = expected_entries();
-  if (group_count == 0) kind = FactorKind::simplicial;  // CHOLMOD takes no empty matrix.
-  if (!kind) kind = faster_kind(entries, static_cast<std::int64_t>(group_count) * width_);
-  factor_ = *kind == FactorKind::supernodal ? supernodal_factor() : simplicial_factor();
+    : BlockSystem(3 * rows_per_group, pattern(group_count, 3 * rows_per_group, couplings, kind)) {
   lay_out();
 }
 
-void BlockSystem::order(int group_count, const std::vector<std::pair<int, int>>& couplings) {
+BlockSystem::BlockSystem(int width, std::shared_ptr<const Pattern> pattern)
+    : width_(width),
+      pattern_(std::move(pattern)),
+      factor_(pattern_->kind == FactorKind::supernodal ? supernodal_factor() : simplicial_factor()) {}
+
+std::shared_ptr<const BlockSystem::Pattern> BlockSystem::pattern(int group_count, int width,
+                                                                 const std::vector<std::pair<int, int>>& couplings,
+                                                                 std::optional<FactorKind> kind) {
+  Pattern pattern = order(group_count, couplings);
+  const std::int64_t entries = expected_entries(pattern, width);
+  if (group_count == 0) kind = FactorKind::simplicial;  // CHOLMOD takes no empty matrix.
+  pattern.kind = kind ? *kind : faster_kind(entries, static_cast<std::int64_t>(group_count) * width);
+  return std::make_shared<const Pattern>(std::move(pattern));
+}
+
+BlockSystem BlockSystem::unfactored() const {
+  BlockSystem other(width_, pattern_);
+  other.matrix_ = matrix_;
+  return other;
+}
+
+BlockSystem::Pattern BlockSystem::order(int group_count, const std::vector<std::pair<int, int>>& couplings) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(2 * couplings.size() + static_cast<size_t>(group_count));
   for (const auto& [i, j] : couplings) {
@@ -57,29 +73,30 @@ void BlockSystem::order(int group_count, const std::vector<std::pair<int, int>>&
   SparseMatrix graph(group_count, group_count);
   graph.setFromTriplets(entries.begin(), entries.end());
   const std::vector<int> elimination = elimination_order(graph);
-  place_.resize(static_cast<size_t>(group_count));
-  for (int p = 0; p < group_count; ++p) place_[static_cast<size_t>(elimination[static_cast<size_t>(p)])] = p;
-  above_.resize(static_cast<size_t>(group_count));
+  Pattern pattern{std::vector<int>(static_cast<size_t>(group_count)),
+                  std::vector<std::vector<int>>(static_cast<size_t>(group_count))};
+  for (int p = 0; p < group_count; ++p) pattern.place[static_cast<size_t>(elimination[static_cast<size_t>(p)])] = p;
   for (int g = 0; g < group_count; ++g) {
-    const int p = place_[static_cast<size_t>(g)];
-    std::vector<int>& above = above_[static_cast<size_t>(p)];
+    const int p = pattern.place[static_cast<size_t>(g)];
+    std::vector<int>& above = pattern.above[static_cast<size_t>(p)];
     for (SparseMatrix::InnerIterator other(graph, g); other; ++other) {
-      const int q = place_[static_cast<size_t>(other.row())];
+      const int q = pattern.place[static_cast<size_t>(other.row())];
       if (q < p) above.push_back(q);
     }
     std::sort(above.begin(), above.end());
   }
+  return pattern;
 }
 
 /// The factor's entries are counted in int: beyond, its making would end in the dark.
-std::int64_t BlockSystem::expected_entries() const {
-  std::vector<int> parent(above_.size(), -1), seen_from(above_.size(), -1);
+std::int64_t BlockSystem::expected_entries(const Pattern& pattern, int width) {
+  std::vector<int> parent(pattern.above.size(), -1), seen_from(pattern.above.size(), -1);
   std::int64_t blocks = 0;
-  for (int p = 0; p < static_cast<int>(above_.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(pattern.above.size()); ++p) {
     seen_from[static_cast<size_t>(p)] = p;
     ++blocks;
     // The row of p in the factor: all on the way up the elimination tree to p.
-    for (int q : above_[static_cast<size_t>(p)]) {
+    for (int q : pattern.above[static_cast<size_t>(p)]) {
       for (; seen_from[static_cast<size_t>(q)] != p; q = parent[static_cast<size_t>(q)]) {
         if (parent[static_cast<size_t>(q)] == -1) parent[static_cast<size_t>(q)] = p;
         seen_from[static_cast<size_t>(q)] = p;
@@ -87,26 +104,26 @@ std::int64_t BlockSystem::expected_entries() const {
       }
     }
   }
-  const std::int64_t entries = blocks * width_ * width_;
+  const std::int64_t entries = blocks * width * width;
   if (entries <= std::numeric_limits<int>::max()) return entries;
-  throw Unsolvable("factor: the matrix of " + std::to_string(above_.size()) + " elements needs up to " +
+  throw Unsolvable("factor: the matrix of " + std::to_string(pattern.above.size()) + " elements needs up to " +
                    std::to_string(entries) + " entries, " + std::to_string(std::numeric_limits<int>::max()) +
                    " can be held: take a coarser mesh");
 }
 
 void BlockSystem::lay_out() {
-  const auto unknowns = static_cast<Eigen::Index>(above_.size()) * width_;
+  const auto unknowns = static_cast<Eigen::Index>(pattern_->above.size()) * width_;
   std::vector<int> entries_of_columns;
-  for (const std::vector<int>& above : above_) {
+  for (const std::vector<int>& above : pattern_->above) {
     for (int c = 0; c < width_; ++c) entries_of_columns.push_back(3 * static_cast<int>(above.size()) + c + 1);
   }
   matrix_.resize(unknowns, unknowns);
   if (unknowns == 0) return;  // Eigen reads beyond an empty matrix.
   matrix_.reserve(entries_of_columns);
-  for (int p = 0; p < static_cast<int>(above_.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(pattern_->above.size()); ++p) {
     for (int c = 0; c < width_; ++c) {
       const int column = p * width_ + c;
-      for (const int q : above_[static_cast<size_t>(p)]) {
+      for (const int q : pattern_->above[static_cast<size_t>(p)]) {
         for (int r = 0; r < 3; ++r) matrix_.insert(q * width_ + c / 3 * 3 + r, column) = 0;
       }
       for (int r = 0; r <= c; ++r) matrix_.insert(p * width_ + r, column) = 0;
@@ -116,13 +133,13 @@ void BlockSystem::lay_out() {
 }
 
 int BlockSystem::offset(int above, int group) const {
-  const std::vector<int>& places = above_[static_cast<size_t>(group)];
+  const std::vector<int>& places = pattern_->above[static_cast<size_t>(group)];
   return 3 * static_cast<int>(std::lower_bound(places.begin(), places.end(), above) - places.begin());
 }
 
 void BlockSystem::add(int group, const Eigen::Ref<const Eigen::MatrixXd>& block) {
-  const int p = place_[static_cast<size_t>(group)];
-  const int start = 3 * static_cast<int>(above_[static_cast<size_t>(p)].size());
+  const int p = pattern_->place[static_cast<size_t>(group)];
+  const int start = 3 * static_cast<int>(pattern_->above[static_cast<size_t>(p)].size());
   for (int c = 0; c < width_; ++c) {
     double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[p * width_ + c] + start;
     for (int r = 0; r <= c; ++r) column[r] += block(r, c);
@@ -130,7 +147,7 @@ void BlockSystem::add(int group, const Eigen::Ref<const Eigen::MatrixXd>& block)
 }
 
 void BlockSystem::add(int i, int j, int row, const Eigen::Matrix3d& block) {
-  const int p = place_[static_cast<size_t>(i)], q = place_[static_cast<size_t>(j)];
+  const int p = pattern_->place[static_cast<size_t>(i)], q = pattern_->place[static_cast<size_t>(j)];
   const int start = offset(std::min(p, q), std::max(p, q));
   for (int c = 0; c < 3; ++c) {
     double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[std::max(p, q) * width_ + 3 * row + c] + start;
@@ -143,16 +160,18 @@ void BlockSystem::factor() {
   analyzed_ = true;
   const int first = factor_->factorize(matrix_);
   if (first < 0) return;
-  const auto group = std::find(place_.begin(), place_.end(), first / width_) - place_.begin();
+  const auto group =
+      std::find(pattern_->place.begin(), pattern_->place.end(), first / width_) - pattern_->place.begin();
   throw Unsolvable("factor: the matrix of " + std::to_string(unknowns()) +
                    " unknowns is not positive definite, first seen at element " + std::to_string(group) +
                    "; look there for degenerate triangles or a part without a handle");
 }
 
-Eigen::MatrixXd BlockSystem::solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides) {
-  into_order(right_hand_sides, columns_);
-  factor_->solve(columns_);
-  return as_given(columns_);
+Eigen::MatrixXd BlockSystem::solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides) const {
+  Eigen::MatrixXd columns;
+  into_order(right_hand_sides, columns);
+  factor_->solve(columns);
+  return as_given(columns);
 }
 
 bool BlockSystem::keep_single() {
@@ -213,15 +232,17 @@ Eigen::VectorXd BlockSystem::times(const Eigen::Ref<const Eigen::VectorXd>& vect
 
 void BlockSystem::into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::MatrixXd& ordered) const {
   ordered.resize(columns.rows(), columns.cols());
-  for (size_t g = 0; g < place_.size(); ++g) {
-    ordered.middleRows(place_[g] * width_, width_) = columns.middleRows(static_cast<Eigen::Index>(g) * width_, width_);
+  for (size_t g = 0; g < pattern_->place.size(); ++g) {
+    ordered.middleRows(pattern_->place[g] * width_, width_) =
+        columns.middleRows(static_cast<Eigen::Index>(g) * width_, width_);
   }
 }
 
 Eigen::MatrixXd BlockSystem::as_given(const Eigen::MatrixXd& ordered) const {
   Eigen::MatrixXd result(ordered.rows(), ordered.cols());
-  for (size_t g = 0; g < place_.size(); ++g) {
-    result.middleRows(static_cast<Eigen::Index>(g) * width_, width_) = ordered.middleRows(place_[g] * width_, width_);
+  for (size_t g = 0; g < pattern_->place.size(); ++g) {
+    result.middleRows(static_cast<Eigen::Index>(g) * width_, width_) =
+        ordered.middleRows(pattern_->place[g] * width_, width_);
   }
   return result;
 }

@@ -25,6 +25,9 @@ class BlockSystem {
   BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings,
               std::optional<FactorKind> kind = {});
 
+  /// The same couplings and values, in an order that both share; its factor is its own, and not made yet.
+  BlockSystem unfactored() const;
+
   void set_zero() { values().setZero(); }
   /// All values of the matrix, to keep a constant part and start the next assembly from it.
   Eigen::Map<Eigen::VectorXd> values() { return {matrix_.valuePtr(), matrix_.nonZeros()}; }
@@ -37,7 +40,8 @@ class BlockSystem {
   /// Throws Unsolvable, naming the group, where the matrix is not positive definite.
   void factor();
   /// The solutions for right-hand sides, a column each, of all groups one after the other. factor() comes first.
-  Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides);
+  /// May be called from several threads.
+  Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides) const;
 
   /// For systems solved over and over from a guess: keeps the factor in single precision alone, where it is made of
   /// dense blocks and a solve by it leaves less than a tenth of the error. Returns whether it does.
@@ -65,23 +69,31 @@ class BlockSystem {
   /// Group after group as given ⇄ in the order of elimination.
   void into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::MatrixXd& ordered) const;
   Eigen::MatrixXd as_given(const Eigen::MatrixXd& ordered) const;
-  void order(int group_count, const std::vector<std::pair<int, int>>& couplings);
-  /// Entries of the factor below its diagonal and on it, by blocks. Throws where int cannot count them.
-  std::int64_t expected_entries() const;
   void lay_out();
   /// Where the first entry of block (above, column's group) stands in each of the column's entries.
   int offset(int above, int group) const;
 
-  int width_;                            // Unknowns of a group.
-  std::vector<int> place_;               // Group → its place in the order.
-  std::vector<std::vector<int>> above_;  // For each place the places before it that it couples to, ascending.
-  SparseMatrix matrix_;                  // Upper triangle, groups in order.
+  struct Pattern {
+    std::vector<int> place;               // Group → its place in the order.
+    std::vector<std::vector<int>> above;  // For each place the places before it that it couples to, ascending.
+    FactorKind kind = FactorKind::simplicial;
+  };
+  static std::shared_ptr<const Pattern> pattern(int group_count, int width,
+                                                const std::vector<std::pair<int, int>>& couplings,
+                                                std::optional<FactorKind> kind);
+  static Pattern order(int group_count, const std::vector<std::pair<int, int>>& couplings);
+  /// Entries of the factor below its diagonal and on it, by blocks. Throws where int cannot count them.
+  static std::int64_t expected_entries(const Pattern& pattern, int width);
+  BlockSystem(int width, std::shared_ptr<const Pattern> pattern);
+
+  int width_;  // Unknowns of a group.
+  std::shared_ptr<const Pattern> pattern_;
+  SparseMatrix matrix_;  // Upper triangle, groups in order.
   std::unique_ptr<Factor> factor_;
   std::optional<Panels> panels_;  // In its place.
   Eigen::Index kept_entries_ = 0;
   bool factor_is_near_ = false;  // Whether it is worth preconditioning with.
   bool analyzed_ = false;
-  Eigen::MatrixXd columns_;  // Right-hand sides, then solutions, in order.
 };
 
 }  // namespace swage

@@ -19,7 +19,7 @@ class Simplicial : public Factor {
     return first == pivots.size() && std::isfinite(pivots.sum()) ? -1 : static_cast<int>(first);
   }
 
-  void solve(Eigen::Ref<Eigen::MatrixXd> columns) override {
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const override {
     const bool coupled = ldlt_.matrixL().nestedExpression().nonZeros() > 0;
     if (coupled) ldlt_.matrixL().solveInPlace(columns);
     columns = ldlt_.vectorD().asDiagonal().inverse() * columns;

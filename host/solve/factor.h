@@ -16,7 +16,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 enum class FactorKind { simplicial, supernodal };
 
 /// Reads the matrix's upper triangle, whose columns stand in an order that fills the factor little. Several factors may
-/// work at once, each in one thread.
+/// work at once, each in one thread, and several threads may solve by one.
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -25,7 +25,7 @@ class Factor {
   /// all are.
   virtual int factorize(const SparseMatrix& matrix) = 0;
   /// Right-hand sides, a column each, become solutions.
-  virtual void solve(Eigen::Ref<Eigen::MatrixXd> columns) = 0;
+  virtual void solve(Eigen::Ref<Eigen::MatrixXd> columns) const = 0;
   /// A copy in single precision, of factors made of dense blocks.
   virtual std::optional<Panels> panels() const { return std::nullopt; }
   /// Entries held for the factor.

@@ -14,6 +14,7 @@
 #include "swage/handles.h"
 #include "swage/mesh.h"
 #include "swage/report.h"
+#include "swage/steps.h"
 
 namespace swage {
 
@@ -62,13 +63,17 @@ struct ReshapeOptions {
 struct ReshapeResult {
   Positions positions;     ///< #V × 3, mesh units, the input's order.
   Positions unfinished;    ///< The same before finalising.
+  Transforms transforms;   ///< #T × 9: rest edge → edited edge, of `unfinished` to the stop's tolerance.
   bool finalised = false;  ///< Whether a dimple was found and spread.
   Report report;
 };
 
 struct ReshapePlan;  ///< What is kept of a mesh between solves.
 
-/// Reshapes one mesh, any number of times.
+/// Reshapes one mesh, any number of times. prepare() and solve() may be called from several threads at once: the first
+/// prepares, the others wait, then each solves by itself, and results are the same bytes whatever else runs. Memory for
+/// as many solves as ever ran at once stays until the end. Solves use several threads themselves, so callers that fill
+/// the cores with solves do best to call omp_set_num_threads(1) in each of their threads.
 class Reshape {
  public:
   /// Throws InvalidInput where check(positions, triangles) does, an edge has not two triangles of one orientation, a
@@ -79,12 +84,19 @@ class Reshape {
   Reshape& operator=(Reshape&&) noexcept;
 
   /// Prepares all that depends on the rest shape alone, among it the one factorisation of the transform step's
-  /// matrix. The first solve does so where it was not done before. Returns false where `progress` cancelled.
+  /// matrix. The first solve does so where it was not done before. Returns false where `progress` cancelled; it must
+  /// not use this object.
   bool prepare(const ProgressFn& progress = {});
 
   /// Moves the handles to their targets. Does not depend on earlier solves.
   /// Throws InvalidInput as check(gesture, positions, triangles) does, and Unsolvable where a system is singular.
   ReshapeResult solve(const Gesture& gesture, const ProgressFn& progress = {});
+
+  /// The same from the result of another gesture on this mesh, as while dragging, instead of the rest shape: fewer
+  /// passes to the same fixed point, within the stop's tolerance. Reads start.unfinished and start.transforms.
+  /// Throws InvalidInput also where these do not fit the mesh or are not finite, and for the published solver, whose
+  /// answer depends on where it starts.
+  ReshapeResult solve(const Gesture& gesture, const ReshapeResult& start, const ProgressFn& progress = {});
 
  private:
   std::unique_ptr<ReshapePlan> plan_;

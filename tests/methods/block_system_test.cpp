@@ -137,6 +137,34 @@ TEST_P(BlockSystemBy, TheSameBytesFromTwoThreadsAtOnce) {
   EXPECT_EQ(other, alone);
 }
 
+TEST_P(BlockSystemBy, OneFactorSolvesForTwoThreadsAtOnce) {
+  Dense both = random_system(400, 3, 6, GetParam());
+  both.system.factor();
+  const BlockSystem& system = both.system;
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(both.matrix.rows()), other_side = 2 * ones;
+  const Eigen::VectorXd expected = system.solve(ones), other_expected = system.solve(other_side);
+  std::thread thread([&] {
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(system.solve(other_side), other_expected);
+  });
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(system.solve(ones), expected);
+  thread.join();
+}
+
+TEST_P(BlockSystemBy, ACopyToBeFactoredHasTheSameValuesAndItsOwnFactor) {
+  Dense both = random_system(40, 3, 7, GetParam());
+  both.system.factor();
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(both.matrix.rows(), -1, 2), side = both.system.times(x);
+  const Eigen::VectorXd expected = both.system.solve(side);
+  Dense copy{both.system.unfactored(), both.matrix};
+  EXPECT_EQ(copy.system.times(x), side);
+  copy.system.factor();
+  EXPECT_EQ(copy.system.solve(side), expected);
+  copy.system.values() *= 2;
+  copy.matrix *= 2;
+  expect_equal(copy);
+  EXPECT_EQ(both.system.solve(side), expected);
+}
+
 TEST_P(BlockSystemBy, SolvesNearAGuess) {
   Dense both = random_system(300, 1, 8, GetParam());
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(both.matrix.rows(), -1, 2);
