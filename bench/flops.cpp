@@ -95,7 +95,8 @@ Flops flops_of_transform() {
   const Vec3 edge = vec3(1, 2, 3), normal = vec3(0, 0, 1);
   const Flops per_triangle = flops_of([=] {
     distance_from_identity(damped_inverse(m).matrix);
-    TriangleTerms terms = no_edges(1);
+    distance_from_normal(m, normal);
+    TriangleTerms terms = no_edges(normal, 1, 1);
     for (int k = 0; k < 3; ++k) {
       terms = add_edge(terms, m, normal, sub3(edge, normal), edge, 1, 1, 1);
       length_weight(edge, 1);

@@ -35,8 +35,9 @@ class CpuCoupling final : public CouplingStep {
  private:
   /// Of eqs. 24, 26, 27 and 28.
   Matrix3d own(Eigen::Index t, const Matrix3d& transform) const {
-    Matrix3d sum = rest_.regularizer_weight * transform;
     const Vector3d normal = rest_.normals.row(t);
+    Matrix3d sum = rest_.regularizer_weight * transform;
+    sum += rest_.normal_regularizer_weight * transform * normal * normal.transpose();
     for (const int e : rest_.triangle_edges.row(t)) {
       const Vector3d vector = rest_.edge_vectors.row(e), direction = vector.normalized();
       sum += transform * vector * vector.transpose() / rest_.mean_edge_length;

@@ -146,7 +146,9 @@ class CpuTransform final : public TransformStep {
 
   /// Of eq. 24 in the form (1/L) |T e0 - e|² and of eq. 28.
   Row9 right_hand_side(Eigen::Index t) const {
+    const Vector3d normal = rest_.normals.row(t);
     Matrix3d sum = rest_.regularizer_weight * Matrix3d::Identity();
+    sum += rest_.normal_regularizer_weight * normal * normal.transpose();
     for (int k = 0; k < 3; ++k) {
       const int e = rest_.triangle_edges(t, k);
       sum += vectors_.row(e).transpose() * rest_.edge_vectors.row(e) / rest_.mean_edge_length;
@@ -179,10 +181,15 @@ class CpuTransform final : public TransformStep {
     sum.similarity = add_up(rest_.pairs.rows(), [&](Eigen::Index p) {
       return rest_.pair_similarities[p] * pair_term(p, rest_.pair_opposites.row(p));
     });
-    sum.regularizer = rest_.regularizer_weight * add_up(rest_.triangles.rows(), [&](Eigen::Index t) {
-                        return (matrix(transforms_, t) - Matrix3d::Identity()).squaredNorm();
-                      });
+    sum.regularizer = add_up(rest_.triangles.rows(), [&](Eigen::Index t) { return regularizer_term(t); });
     return sum;
+  }
+
+  /// Eq. 28, and the same of the normal alone.
+  double regularizer_term(Eigen::Index t) const {
+    const Matrix3d change = matrix(transforms_, t) - Matrix3d::Identity();
+    return rest_.regularizer_weight * change.squaredNorm() +
+           rest_.normal_regularizer_weight * (change * rest_.normals.row(t).transpose()).squaredNorm();
   }
 
   /// Eq. 20.

@@ -34,7 +34,7 @@ INLINE void store_inverse(Mat3 m, global scalar* triangle_rows, int i) {
   store_entries(m.z.z, triangle_rows + 8, 12);
 }
 
-/// Triangles. Sums: damped, regularizer.
+/// Triangles. Sums: damped, regularizer, that of the normal.
 kernel void invert(const int items, const int count, global const host_scalar* transforms, global scalar* triangle_rows,
                    global scalar* sums) {
   const int i = get_global_id(0);
@@ -42,7 +42,9 @@ kernel void invert(const int items, const int count, global const host_scalar* t
   const Mat3 transform = gather_host9(transforms, own_elements(i, count));
   const Inverse inverse = damped_inverse(transform);
   const real present = present_lanes(i, count);
-  store_sums(i, sums, present * inverse.damped, present * distance_from_identity(transform), (real)0);
+  const Vec3 normal = gather_triangle(triangle_rows, own_elements(i, count)).normal;
+  store_sums(i, sums, present * inverse.damped, present * distance_from_identity(transform),
+             present * distance_from_normal(transform, normal));
   store_inverse(inverse.matrix, triangle_rows, i);
 }
 
@@ -136,17 +138,17 @@ kernel void compare_pairs(const int count, global const int* pairs, global const
 /// Triangles. `corners`: their vertices. `rest`: their edges' vectors, and 1 over how many triangles each edge has.
 /// `weights`: length weights of their edges. Sums: transform, normal, scale.
 kernel void fit_triangles(const int items, const int count, const scalar regularizer_weight,
-                          const scalar mean_edge_length, global const int* corners, global const host_scalar* positions,
-                          global const scalar* residues, global const scalar* triangle_rows, global const scalar* rest,
-                          global const scalar* weights, global scalar* next_weights,
-                          global host_scalar* right_hand_sides, global scalar* sums) {
+                          const scalar normal_regularizer_weight, const scalar mean_edge_length,
+                          global const int* corners, global const host_scalar* positions, global const scalar* residues,
+                          global const scalar* triangle_rows, global const scalar* rest, global const scalar* weights,
+                          global scalar* next_weights, global host_scalar* right_hand_sides, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const TriangleRow row = gather_triangle(triangle_rows, own_elements(i, count));
   const Sides now = sides_between(positions, residues, load_indices(corners, 3, 0, i), load_indices(corners, 3, 1, i),
                                   load_indices(corners, 3, 2, i));
   const real mean = (real)mean_edge_length;
-  TriangleTerms sum = no_edges((real)regularizer_weight);
+  TriangleTerms sum = no_edges(row.normal, (real)regularizer_weight, (real)normal_regularizer_weight);
   sum = add_edge(sum, row.inverse, row.normal, now.first, load_tile3(rest, 12, 0, i), load_tile(weights, 3, 0, i),
                  load_tile(rest, 12, 9, i), mean);
   sum = add_edge(sum, row.inverse, row.normal, now.second, load_tile3(rest, 12, 3, i), load_tile(weights, 3, 1, i),

@@ -123,6 +123,9 @@ Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& ges
                      {"write", seconds.write},
                      {"total", seconds.total}};
   for (const auto& [stage, spent] : result.report.seconds) json["seconds_by_stage"][stage] = spent;
+  for (const auto& [part, bytes] : result.report.bytes)
+    json["memory_mb_by_part"][part] = 1e-6 * static_cast<double>(bytes);
+  for (const auto& [choice, path] : result.report.paths) json["paths"][choice] = path;
   const Traffic traffic = backend.traffic();
   json["traffic"] = {{"uploaded_bytes", traffic.uploaded},
                      {"downloaded_bytes", traffic.downloaded},

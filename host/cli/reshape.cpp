@@ -16,9 +16,17 @@
 namespace swage::cli {
 namespace {
 
+LinearSolver linear_solver(const std::string& name) {
+  for (const LinearSolver solver : {LinearSolver::factor, LinearSolver::multigrid}) {
+    if (name == to_string(solver)) return solver;
+  }
+  return LinearSolver::automatic;
+}
+
 ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const BackendChoice& choice) {
   ReshapeOptions options;
   options.solver = job.solver == to_string(ReshapeSolver::published) ? ReshapeSolver::published : ReshapeSolver::steady;
+  options.linear_solver = linear_solver(job.linear_solver);
   options.feature_angle = job.feature_angle * std::numbers::pi / 180;
   options.finalise = !job.no_finalise;
   options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()));
@@ -73,6 +81,12 @@ void write_result(const std::string& path, const ReshapeJob& job, const MeshFile
   write_stdout(text.str());
 }
 
+void check_method(const ReshapeJob& job) {
+  if (linear_solver(job.linear_solver) == LinearSolver::multigrid && job.solver == "published") {
+    throw WrongUsage("--linear-solver multigrid does not go with --solver published, which factors: leave one out");
+  }
+}
+
 void check_outputs(const ReshapeJob& job) {
   if (job.output.empty() && job.json.empty()) {
     throw WrongUsage("nothing to write: name the result mesh with -o FILE or the report with --json FILE");
@@ -100,6 +114,10 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("--solver", job.solver, "steady: whatever the resolution; published: as in the paper (steady)")
       ->group(group)
       ->check(CLI::IsMember({"steady", "published"}));
+  app.add_option("--linear-solver", job.linear_solver,
+                 "factor: exact, much memory; multigrid: little; auto: by the mesh's size (auto)")
+      ->group(group)
+      ->check(CLI::IsMember({"auto", "factor", "multigrid"}));
   app.add_option("--curvature", job.curvature, "Principal curvatures, instead of computing them")
       ->group(group)
       ->type_name("FILE.fk");
@@ -118,6 +136,7 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
 
 ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const CommonOptions& common) {
   check_outputs(job);
+  check_method(job);
   apply(common);
   const BackendChoice choice(common);
   RunSeconds seconds;

@@ -15,6 +15,7 @@ struct ReshapeJob {
   std::string json;    ///< Report; likewise.
   std::string method = "slippage";
   std::string solver = "steady";
+  std::string linear_solver = "auto";
   std::string curvature;       ///< A .fk file; empty to compute.
   std::string straight;        ///< A file of straight chains; empty for none.
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.

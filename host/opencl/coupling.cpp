@@ -49,6 +49,7 @@ void fill_own(const Rest& rest, Table& table) {
       vectors += vector.transpose() * vector / rest.mean_edge_length;
       directions += direction.transpose() * direction;
     }
+    vectors += rest.normal_regularizer_weight * rest.normals.row(t).transpose() * rest.normals.row(t);
     table.rest.row(t) << upper(vectors), upper(directions), rest.normals.row(t), Eigen::Matrix<double, 1, 21>::Zero();
   }
 }

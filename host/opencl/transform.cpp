@@ -86,8 +86,9 @@ class OpenClTransform final : public TransformStep {
     show(positions);
     right_hand_sides_.lend(right_hand_sides);
     fit_triangles_.launch(triangles_.items(), triangles_.count, constants_.regularizer_weight,
-                          constants_.mean_edge_length, triangle_corners_, positions_, residues_, triangle_rows_,
-                          triangle_edges_, weights(), next_weights_, right_hand_sides_, triangle_sums_.of_items());
+                          constants_.normal_regularizer_weight, constants_.mean_edge_length, triangle_corners_,
+                          positions_, residues_, triangle_rows_, triangle_edges_, weights(), next_weights_,
+                          right_hand_sides_, triangle_sums_.of_items());
     place_corners_.launch(round_.items(), round_.count, corners_, corner_rest_, positions_, residues_,
                           corner_sums_.of_items());
     for (Sums* sums : {&triangle_sums_, &corner_sums_}) sums->add_up();
@@ -100,8 +101,13 @@ class OpenClTransform final : public TransformStep {
  private:
   OpenClTransform(const Queue& queue, const Rest& rest, const EdgeTable& table, const RoundTriangles& round)
       : queue_(queue),
-        constants_{rest.mean_edge_length, rest.normal_weight,      rest.connect_weight,
-                   rest.scale_weight,     rest.regularizer_weight, rest.transform_sphericity_factor},
+        constants_{rest.mean_edge_length,
+                   rest.normal_weight,
+                   rest.connect_weight,
+                   rest.scale_weight,
+                   rest.regularizer_weight,
+                   rest.normal_regularizer_weight,
+                   rest.transform_sphericity_factor},
         vertices_(rest.vertices.rows()),
         triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
         edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
@@ -187,7 +193,8 @@ class OpenClTransform final : public TransformStep {
       edges += Eigen::Vector3d(terms.sum(), pairs.col(0).sum(), pairs.col(1).sum());
     }
     energy_ = {};
-    energy_.regularizer = constants_.regularizer_weight * inverse_sums_.total()[1];
+    energy_.regularizer = constants_.regularizer_weight * inverse_sums_.total()[1] +
+                          constants_.normal_regularizer_weight * inverse_sums_.total()[2];
     energy_.transform_normal = edges[0];
     energy_.connect = constants_.connect_weight * edges[1];
     energy_.similarity = edges[2];
@@ -205,7 +212,7 @@ class OpenClTransform final : public TransformStep {
   }
 
   struct Constants {
-    double mean_edge_length, normal_weight, connect_weight, scale_weight, regularizer_weight,
+    double mean_edge_length, normal_weight, connect_weight, scale_weight, regularizer_weight, normal_regularizer_weight,
         transform_sphericity_factor;
   };
 

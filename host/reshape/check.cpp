@@ -48,8 +48,8 @@ void check_edge(const Triangles& triangles, const Edges& edges, int e) {
 
 void check_options(const ReshapeOptions& options, const Mesh& mesh) {
   const ReshapeWeights w = options.weights.value_or(ReshapeWeights());
-  for (const double weight :
-       {w.normal, w.similarity, w.connect, w.sphericity, w.scale, w.regularizer, w.handle, w.straightness}) {
+  for (const double weight : {w.normal, w.similarity, w.connect, w.sphericity, w.scale, w.regularizer,
+                              w.normal_regularizer, w.handle, w.straightness}) {
     if (!(weight >= 0) || std::isinf(weight)) throw InvalidInput("Reshape: options.weights: not finite or negative");
   }
   if (w.regularizer == 0 || w.handle == 0) {
@@ -61,6 +61,12 @@ void check_options(const ReshapeOptions& options, const Mesh& mesh) {
   if (options.pass_limit < 1) throw InvalidInput("Reshape: options.pass_limit: below 1");
   if (!(options.movement > 0) || std::isinf(options.movement)) {
     throw InvalidInput("Reshape: options.movement: not finite and above 0");
+  }
+  if (options.linear_solver == LinearSolver::multigrid &&
+      (options.solver == ReshapeSolver::published || options.refactor_every_pass)) {
+    throw InvalidInput(
+        "Reshape: options.linear_solver: the published solver and refactor_every_pass need a factor; take the steady "
+        "solver for multigrid");
   }
   if (options.acceleration_window < 0 || options.acceleration_window > 50) {
     throw InvalidInput("Reshape: options.acceleration_window: not in [0, 50]");

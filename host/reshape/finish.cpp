@@ -119,7 +119,8 @@ Transforms rigid_outside(const std::vector<int>& zone, const Transforms& transfo
 
 }  // namespace
 
-std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions) {
+std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions,
+                                        const Poll& poll) {
   const Positions normals = unit_normals(positions, plan.rest.triangles);
   const std::vector<int> zone = dimple_zone(iterate.handles, plan.rest, normals);
   if (std::all_of(zone.begin(), zone.end(), [](int ring) { return ring == 0; })) return std::nullopt;
@@ -135,7 +136,7 @@ std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& 
   vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
   vertices.system.forget_factor();  // Of another problem.
   return place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness, {handles, outside},
-                        positions);
+                        positions, poll);
 }
 
 }  // namespace swage

@@ -1,4 +1,6 @@
 // The global steps: two sparse systems.
+#include "conjugate_gradients.h"
+#include "element_graphs.h"
 #include "plan.h"
 #include "sphericity.h"
 
@@ -7,22 +9,22 @@ namespace {
 
 using Eigen::Matrix3d;
 
+// What multigrid leaves of a pass's error. Tenfold less of either takes as many passes; twice as much, up to twice as
+// many.
+constexpr double kNearTransforms = 0.05, kNearVertices = 1e-2;
+constexpr int kMostIterations = 300;
+
 struct Quadratic {
   BlockSystem& system;
   Eigen::VectorXd right_hand_side;
 };
 
-void add_edges(Quadratic& quadratic, const TransformStep::Rest& rest, const TransformStep::EdgeQuadratics& quadratics) {
+void add_edges(Quadratic& quadratic, const BlockSystem::Stars& edges, const TransformStep::Rest& rest,
+               const TransformStep::EdgeQuadratics& quadratics) {
+  quadratic.system.add_differences(edges, quadratics.blocks);
   for (Eigen::Index e = 0; e < rest.edges.rows(); ++e) {
-    const int i = rest.edges(e, 0), j = rest.edges(e, 1);
-    const auto b = quadratics.blocks.row(e);
-    Matrix3d block;
-    block << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
-    quadratic.system.add(i, block);
-    quadratic.system.add(j, block);
-    quadratic.system.add(i, j, 0, -block);
-    quadratic.right_hand_side.segment<3>(3 * i) -= quadratics.right_hand_sides.row(e);
-    quadratic.right_hand_side.segment<3>(3 * j) += quadratics.right_hand_sides.row(e);
+    quadratic.right_hand_side.segment<3>(3 * rest.edges(e, 0)) -= quadratics.right_hand_sides.row(e);
+    quadratic.right_hand_side.segment<3>(3 * rest.edges(e, 1)) += quadratics.right_hand_sides.row(e);
   }
 }
 
@@ -79,7 +81,7 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
                          double straightness_weight, const std::vector<Holds>& holds) {
   Quadratic quadratic{vertices.system, Eigen::VectorXd::Zero(vertices.system.unknowns())};
   vertices.system.values() = *vertices.sphericity;
-  add_edges(quadratic, rest, quadratics);
+  add_edges(quadratic, *vertices.edges, rest, quadratics);
   for (const StraightTriple& triple : straight) {
     add_straight(quadratic, triple, quadratics.target_lengths, straightness_weight);
   }
@@ -89,11 +91,34 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
 
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start) {
+                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
+                         const Poll& poll) {
   const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
-  const Eigen::VectorXd solution =
-      vertices.system.solve_near(right_hand_side, Eigen::Map<const Eigen::VectorXd>(start.data(), start.size()));
+  Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(start.data(), start.size());
+  if (vertices.system.has_factor()) {
+    solution = vertices.system.solve_near(right_hand_side, solution);
+  } else {
+    const ElementGraph graph = vertex_graph(rest, quadratics, holds);
+    vertices.multilevel ? vertices.multilevel->refill(graph) : void(vertices.multilevel.emplace(graph, poll));
+    const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
+    const Gradients done =
+        vertices.multilevel->improve(times_matrix, right_hand_side, kNearVertices, kMostIterations, solution, poll);
+    if (!done.converged) {  // Never seen but on straight chains.
+      vertices = vertex_system(rest, straight);
+      return place_vertices(vertices, rest, quadratics, straight, straightness_weight, holds, start, poll);
+    }
+  }
   return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
+}
+
+Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matrix, const Transforms& right_hand_sides,
+                               const Transforms& transforms, const Poll& poll) {
+  Transforms left;
+  matrix.apply(transforms, left);
+  left = right_hand_sides - left;
+  const Eigen::VectorXd change = multilevel.solve(Eigen::Map<const Eigen::VectorXd>(left.data(), left.size()),
+                                                  kNearTransforms, kMostIterations, poll);
+  return transforms + Eigen::Map<const Transforms>(change.data(), transforms.rows(), 9);
 }
 
 Transforms identities(Eigen::Index triangle_count) {

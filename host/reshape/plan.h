@@ -4,12 +4,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "anderson.h"
 #include "block_system.h"
 #include "measures.h"
+#include "multilevel.h"
 #include "pool.h"
 #include "stopwatch.h"
 #include "swage/reshape.h"
@@ -29,24 +31,48 @@ struct Holds {
   double weight = 0;
 };
 
-/// The vertex step's system and what goes into it besides the edges.
+/// The vertex step's system and what goes into it.
 struct VertexSystem {
   BlockSystem system;
+  std::shared_ptr<const BlockSystem::Stars> edges;
   std::shared_ptr<const Eigen::VectorXd> sphericity;  ///< The matrix's values of the sphericity term alone.
+  std::optional<Multilevel> multilevel = {};          ///< Of a pass before, where the system is not factored.
+
+  /// The same, as new.
+  VertexSystem unsolved() const { return {system.unfactored(), edges, sphericity}; }
+  std::size_t bytes() const {
+    return system.bytes() + edges->rays.size() * sizeof(BlockSystem::Stars::Ray) +
+           (multilevel ? multilevel->bytes() : 0);
+  }
+  /// As if nothing had been solved.
+  void forget() {
+    system.forget_factor();
+    multilevel.reset();
+  }
 };
 
 /// Weights of the terms in each step.
 struct StepWeights {
-  double normal, sphericity, scale, handle, straightness;                           // Vertex step.
-  double connect, similarity, transform_normal, transform_sphericity, regularizer;  // Transform step.
+  double normal, sphericity, scale, handle, straightness;  // Vertex step.
+  double connect, similarity, transform_normal, transform_sphericity, regularizer,
+      normal_regularizer;  // Transform step.
 };
 
 /// What a solve changes and a later one goes on with: memory and symbolic analyses, never values.
 struct Workspace {
   std::unique_ptr<TransformStep> step;
   VertexSystem vertices;
-  std::optional<BlockSystem> transforms;  ///< Where every pass is to factor it.
+  std::optional<BlockSystem> transforms;   ///< Where every pass is to factor it.
+  std::unique_ptr<CouplingStep> coupling;  ///< Where none is.
 };
+
+/// How the global systems are solved.
+struct Paths {
+  LinearSolver vertices = LinearSolver::factor, transforms = LinearSolver::factor;  ///< Never automatic.
+  std::string why_vertices, why_transforms, why_no_coarse_start;
+};
+
+struct CoarsePlan;
 
 /// Solves read it, several at once, but for the pool.
 struct ReshapePlan {
@@ -60,13 +86,15 @@ struct ReshapePlan {
   StepWeights weights = {};
   TransformStep::Rest rest = {};
   std::optional<VertexSystem> vertices = {};  ///< Never factored: workspaces have copies.
-  std::optional<BlockSystem> transforms = {};
+  Paths paths = {};
+  std::optional<BlockSystem> transforms = {};  ///< Factored, where it is to be.
+  std::optional<Multilevel> multilevel = {};   ///< Where not.
+  std::shared_ptr<const CoarsePlan> coarse = {};
   double prepare_seconds = 0;
+  bool prepared = false;
 
   std::mutex preparing = {};
   mutable Pool<Workspace> workspaces = {};
-
-  bool prepared() const { return transforms.has_value(); }
 };
 
 /// One solve's state.
@@ -88,6 +116,10 @@ void check_options(const ReshapeOptions& options, const Mesh& mesh);
 void check_surface(const Mesh& mesh, const Edges& edges);
 void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh);
 
+// paths.cpp
+Paths choose_paths(const ReshapeOptions& options, Eigen::Index vertex_count, Eigen::Index triangle_count,
+                   bool has_straight_chains);
+
 // weights.cpp
 /// As the options' solver takes them on a mesh in the unit box.
 StepWeights step_weights(const ReshapeOptions& options, const Mesh& unit_mesh);
@@ -97,7 +129,11 @@ std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>
                                              int vertex_count);
 TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,
                                const Curvatures& unit_box_curvatures);
-/// Factored by `kind`, or by whatever is faster.
+/// The terms of eq. 35 within triangle t: transform, normal, sphericity, regularizer.
+Eigen::Matrix<double, 9, 9> triangle_block(const TransformStep::Rest& rest, Eigen::Index t);
+/// Those across pair p, connect and similarity, for each row of the difference of the pair's transforms.
+Eigen::Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p);
+/// To be factored by `kind`, or by whatever is faster.
 VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
                            std::optional<FactorKind> kind = {});
 BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind = {});
@@ -112,13 +148,18 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
 /// Minimises it.
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start);
+                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
+                         const Poll& poll = {});
 /// Minimises the transform step's quadratic (eq. 35).
 Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides);
 
 /// Brings transforms near its minimum still nearer.
 Transforms improved_transforms(const BlockSystem& system, const Transforms& right_hand_sides,
                                const Transforms& transforms);
+
+/// The same without a factor.
+Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matrix, const Transforms& right_hand_sides,
+                               const Transforms& transforms, const Poll& poll);
 
 /// #T × 9 identity matrices.
 Transforms identities(Eigen::Index triangle_count);
@@ -132,6 +173,7 @@ double sum(const std::map<std::string, double>& terms);
 
 // finish.cpp
 /// Where a handle sits in a dimple, the positions with its error spread over the rings around (appendix A).
-std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions);
+std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions,
+                                        const Poll& poll);
 
 }  // namespace swage

@@ -77,31 +77,6 @@ void add_pairs(TransformStep::Rest& rest, const Edges& edges, double feature_ang
   }
 }
 
-/// The terms of eq. 35 within triangle t: transform, normal, sphericity, regularizer.
-Matrix9d triangle_block(const TransformStep::Rest& rest, Eigen::Index t) {
-  Matrix9d block = rest.regularizer_weight * Matrix9d::Identity();
-  const Vector3d normal = rest.normals.row(t);
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d e0 = rest.edge_vectors.row(rest.triangle_edges(t, k)), d = e0.normalized();
-    Eigen::Matrix<double, 9, 1> tilt;
-    for (int r = 0; r < 3; ++r) {
-      block.block<3, 3>(3 * r, 3 * r) += e0 * e0.transpose() / rest.mean_edge_length;
-      tilt.segment<3>(3 * r) = normal[r] * d;
-    }
-    block += rest.transform_normal_weight * tilt * tilt.transpose();
-  }
-  if (rest.sphericities[t] == 0) return block;
-  for (const Corner& corner : corners(rest, t)) {
-    Eigen::Matrix<double, 3, 9> difference;
-    for (int r = 0; r < 3; ++r) {
-      difference.middleCols<3>(3 * r) = -corner.turn.col(r) * corner.toward_k.transpose();
-      difference.row(r).segment<3>(3 * r) += corner.toward_j.transpose();
-    }
-    block += rest.transform_sphericity_factor * rest.sphericities[t] * difference.transpose() * difference;
-  }
-  return block;
-}
-
 }  // namespace
 
 std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
@@ -140,6 +115,7 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   rest.connect_weight = weights.connect;
   rest.transform_normal_weight = weights.transform_normal;
   rest.regularizer_weight = weights.regularizer;
+  rest.normal_regularizer_weight = weights.normal_regularizer;
   if (weights.sphericity > 0) rest.transform_sphericity_factor = weights.transform_sphericity / weights.sphericity;
   rest.sphericities.resize(rest.triangles.rows());
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
@@ -149,6 +125,38 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   return rest;
 }
 
+Eigen::Matrix<double, 9, 9> triangle_block(const TransformStep::Rest& rest, Eigen::Index t) {
+  Matrix9d block = rest.regularizer_weight * Matrix9d::Identity();
+  const Vector3d normal = rest.normals.row(t);
+  for (int r = 0; r < 3; ++r) {
+    block.block<3, 3>(3 * r, 3 * r) += rest.normal_regularizer_weight * normal * normal.transpose();
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d e0 = rest.edge_vectors.row(rest.triangle_edges(t, k)), d = e0.normalized();
+    Eigen::Matrix<double, 9, 1> tilt;
+    for (int r = 0; r < 3; ++r) {
+      block.block<3, 3>(3 * r, 3 * r) += e0 * e0.transpose() / rest.mean_edge_length;
+      tilt.segment<3>(3 * r) = normal[r] * d;
+    }
+    block += rest.transform_normal_weight * tilt * tilt.transpose();
+  }
+  if (rest.sphericities[t] == 0) return block;
+  for (const Corner& corner : corners(rest, t)) {
+    Eigen::Matrix<double, 3, 9> difference;
+    for (int r = 0; r < 3; ++r) {
+      difference.middleCols<3>(3 * r) = -corner.turn.col(r) * corner.toward_k.transpose();
+      difference.row(r).segment<3>(3 * r) += corner.toward_j.transpose();
+    }
+    block += rest.transform_sphericity_factor * rest.sphericities[t] * difference.transpose() * difference;
+  }
+  return block;
+}
+
+Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p) {
+  const Vector3d d = rest.edge_vectors.row(rest.pair_edges[p]).normalized(), o = rest.pair_opposites.row(p);
+  return rest.connect_weight * d * d.transpose() + rest.pair_similarities[p] * o * o.transpose();
+}
+
 VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
                            std::optional<FactorKind> kind) {
   std::vector<std::pair<int, int>> couplings;
@@ -156,7 +164,8 @@ VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<St
   for (const StraightTriple& triple : straight) {
     if (triple.before != triple.after) couplings.emplace_back(triple.before, triple.after);
   }
-  VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings, kind), {}};
+  VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings, kind), {}, {}};
+  vertices.edges = std::make_shared<const BlockSystem::Stars>(vertices.system.stars(rest.edges));
   vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
   return vertices;
 }
@@ -167,8 +176,7 @@ BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<Fact
   BlockSystem system(static_cast<int>(rest.triangles.rows()), 3, couplings, kind);
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) system.add(static_cast<int>(t), triangle_block(rest, t));
   for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) {
-    const Vector3d d = rest.edge_vectors.row(rest.pair_edges[p]).normalized(), o = rest.pair_opposites.row(p);
-    const Matrix3d agree = rest.connect_weight * d * d.transpose() + rest.pair_similarities[p] * o * o.transpose();
+    const Matrix3d agree = pair_block(rest, p);
     Matrix9d own = Matrix9d::Zero();
     for (int r = 0; r < 3; ++r) {
       own.block<3, 3>(3 * r, 3 * r) = agree;

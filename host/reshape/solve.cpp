@@ -3,6 +3,8 @@
 
 #include "alternate.h"
 #include "anderson.h"
+#include "coarse.h"
+#include "element_graphs.h"
 #include "plan.h"
 
 namespace swage {
@@ -22,8 +24,9 @@ Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
 }
 
 std::unique_ptr<Workspace> workspace(const ReshapePlan& plan) {
-  auto work = std::make_unique<Workspace>(Workspace{
-      plan.options.backend->transform(plan.rest), {plan.vertices->system.unfactored(), plan.vertices->sphericity}, {}});
+  auto work = std::make_unique<Workspace>(
+      Workspace{plan.options.backend->transform(plan.rest), plan.vertices->unsolved(), {}, {}});
+  if (plan.multilevel) work->coupling = plan.options.backend->coupling(plan.rest);
   if (plan.options.refactor_every_pass) work->transforms = plan.transforms->unfactored();
   return work;
 }
@@ -47,7 +50,9 @@ Iterate begin(const ReshapePlan& plan, Workspace& work, const Gesture& gesture, 
   iterate.handles = handles_of(gesture, plan.box, plan.weights.handle);
   iterate.transforms = start.transforms;
   work.step->reset();
-  work.vertices.system.forget_factor();
+  work.vertices.forget();
+  if (work.vertices.system.has_factor() != plan.vertices->system.has_factor())
+    work.vertices = plan.vertices->unsolved();
   work.vertices.sphericity = plan.vertices->sphericity;
   if (start.warm) {  // For the length weights.
     work.step->fit_edges(iterate.transforms, iterate.quadratics);
@@ -76,7 +81,12 @@ std::optional<FactorKind> factor_kind(const ReshapeOptions& options) {
   return std::nullopt;
 }
 
-double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions) {
+std::optional<FactorKind> vertex_factor_kind(const ReshapePlan& plan) {
+  if (plan.paths.vertices == LinearSolver::multigrid) return FactorKind::none;
+  return factor_kind(plan.options);
+}
+
+double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions, const Poll& poll) {
   const Stopwatch watch(iterate.seconds["vertex_step"]);
   iterate.work.step->fit_edges(iterate.transforms, iterate.quadratics);
   iterate.singular = std::max(iterate.singular, iterate.quadratics.singular);
@@ -84,7 +94,7 @@ double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions) {
   // The published passes solve exactly.
   if (plan.options.solver == ReshapeSolver::published) iterate.work.vertices.system.forget_factor();
   positions = place_vertices(iterate.work.vertices, plan.rest, iterate.quadratics, plan.straight,
-                             plan.weights.straightness, {iterate.handles}, iterate.before);
+                             plan.weights.straightness, {iterate.handles}, iterate.before, poll);
   const TransformStep::Energy local = iterate.work.step->fit_transforms(positions, iterate.right_hand_sides);
   iterate.energy_by_term.push_back(energy_terms(local, positions, plan.straight, plan.weights, iterate.handles));
   return sum(iterate.energy_by_term.back());
@@ -99,8 +109,13 @@ Positions next_start(Iterate& iterate, const Positions& start, const Positions& 
   return next;
 }
 
-void fit(const ReshapePlan& plan, Iterate& iterate) {
+void fit(const ReshapePlan& plan, Iterate& iterate, const Poll& poll) {
   const Stopwatch watch(iterate.seconds["transform_step"]);
+  if (plan.multilevel) {
+    iterate.transforms = improved_transforms(*plan.multilevel, *iterate.work.coupling, iterate.right_hand_sides,
+                                             iterate.transforms, poll);
+    return;
+  }
   std::optional<BlockSystem>& own = iterate.work.transforms;
   if (own) own->factor();
   const BlockSystem& system = own ? *own : *plan.transforms;
@@ -108,8 +123,49 @@ void fit(const ReshapePlan& plan, Iterate& iterate) {
                                        : solve_transforms(system, iterate.right_hand_sides);
 }
 
-void tell(const ReshapePlan& plan, const Iterate& iterate, Report& report) {
+template <typename Matrix>
+std::size_t bytes(const Matrix& matrix) {
+  return static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar);
+}
+
+std::size_t bytes(const TransformStep::Rest& rest) {
+  return bytes(rest.triangles) + bytes(rest.edges) + bytes(rest.triangle_edges) + bytes(rest.pairs) +
+         bytes(rest.pair_edges) + bytes(rest.edge_vectors) + bytes(rest.normals) + bytes(rest.pair_opposites) +
+         bytes(rest.pair_similarities) + bytes(rest.sphericities) + bytes(rest.vertices);
+}
+
+/// Without the backend's.
+std::map<std::string, std::size_t> bytes_by_part(const ReshapePlan& plan, const Iterate& iterate) {
+  const Workspace& work = iterate.work;
+  std::map<std::string, std::size_t> parts;
+  parts["rest_shape"] = bytes(plan.rest);
+  parts["transform_system"] = plan.transforms ? plan.transforms->bytes() : plan.multilevel->bytes();
+  if (work.transforms) parts["transform_system"] += work.transforms->bytes();
+  parts["vertex_system"] = plan.vertices->system.bytes() + work.vertices.bytes();
+  parts["iterate"] = bytes(iterate.transforms) + bytes(iterate.right_hand_sides) + bytes(iterate.quadratics.blocks) +
+                     bytes(iterate.quadratics.right_hand_sides) + bytes(iterate.quadratics.target_lengths);
+  parts["acceleration"] = iterate.acceleration.bytes();
+  if (plan.coarse) parts["coarse_start"] = plan.coarse->bytes();
+  return parts;
+}
+
+std::map<std::string, std::string> paths(const ReshapePlan& plan, bool warm) {
+  const auto path = [](LinearSolver solver, const std::string& why) {
+    return std::string(to_string(solver)) + ": " + why;
+  };
+  std::string start = plan.coarse
+                          ? "coarse: of " + std::to_string(plan.coarse->proxy.mesh.triangles.rows()) + " triangles"
+                          : "rest: " + plan.paths.why_no_coarse_start;
+  if (warm) start = "result: as given";
+  return {{"vertex_step", path(plan.paths.vertices, plan.paths.why_vertices)},
+          {"transform_step", path(plan.paths.transforms, plan.paths.why_transforms)},
+          {"start", start}};
+}
+
+void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report) {
   if (report.passes > 0) report.energy_by_term = iterate.energy_by_term[static_cast<size_t>(report.best_pass)];
+  report.bytes = bytes_by_part(plan, iterate);
+  report.paths = paths(plan, warm);
   report.seconds = iterate.seconds;
   report.seconds["precompute"] = plan.prepare_seconds;
   report.seconds["solve"] = std::accumulate(iterate.seconds.begin(), iterate.seconds.end(), 0.0,
@@ -128,31 +184,74 @@ ProgressFn after_preparation(const ProgressFn& progress) {
   };
 }
 
-bool prepare(ReshapePlan& plan, const ProgressFn& progress) {
-  const std::lock_guard lock(plan.preparing);
-  if (plan.prepared()) return true;
-  auto goes_on = [&](const char* stage, double part) {
-    return !progress || progress({stage, 0, plan.options.pass_limit, part * kPrepared, 0});
-  };
-  const Stopwatch watch(plan.prepare_seconds);
-  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
-  if (!goes_on("curvature", 0)) return false;
-  const Curvatures curvatures = plan.options.unit_box_curvatures
-                                    ? *plan.options.unit_box_curvatures
-                                    : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
-  plan.weights = step_weights(plan.options, unit_mesh);
-  plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
-  if (!goes_on("order", 0.2)) return false;
-  const std::optional<FactorKind> kind = factor_kind(plan.options);
-  plan.vertices = vertex_system(plan.rest, plan.straight, kind);
-  BlockSystem transforms = transform_system(plan.rest, kind);
-  if (!goes_on("factor", 0.4)) return false;
+void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
+  if (plan.paths.transforms == LinearSolver::multigrid) {
+    plan.multilevel.emplace(transform_graph(plan.rest), poll);
+    return;
+  }
+  BlockSystem transforms = transform_system(plan.rest, factor_kind(plan.options));
+  poll();
   transforms.factor();
   if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
   plan.transforms = std::move(transforms);
+}
+
+void make(ReshapePlan& plan, const ProgressFn& progress) {
+  Progress now{"", 0, plan.options.pass_limit, 0, 0};
+  const auto asked = [&] { return !progress || progress(now); };
+  const auto begin = [&](const char* stage, double part) {
+    now.stage = stage;
+    now.fraction = part * kPrepared;
+    if (!asked()) throw Cancelled();
+  };
+  const Poll poll = sparing(asked);
+  const Stopwatch watch(plan.prepare_seconds);
+  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
+  begin("curvature", 0);
+  const Curvatures curvatures = plan.options.unit_box_curvatures
+                                    ? *plan.options.unit_box_curvatures
+                                    : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
+  poll();
+  plan.weights = step_weights(plan.options, unit_mesh);
+  plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
+  plan.paths =
+      choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.straight.empty());
+  begin("order", 0.2);
+  plan.vertices = vertex_system(plan.rest, plan.straight, vertex_factor_kind(plan));
+  begin("factor", 0.4);
+  factor_or_coarsen(plan, poll);
+  begin("coarse", 0.8);
+  plan.coarse = coarse_plan(plan, curvatures, poll, plan.paths.why_no_coarse_start);
+  begin("workspace", 0.95);
   const auto first = plan.workspaces.lend([&] { return workspace(plan); });  // For the first solve, as fast as any.
   if (first->transforms) std::swap(*first->transforms, *plan.transforms);    // It has analysed its pattern.
-  return goes_on("prepared", 1);
+  plan.prepared = true;
+}
+
+bool prepare(ReshapePlan& plan, const ProgressFn& progress) {
+  const std::lock_guard lock(plan.preparing);
+  if (plan.prepared) return true;
+  try {
+    make(plan, progress);
+    return true;
+  } catch (const Cancelled&) {
+    return false;
+  }
+}
+
+void finish(const ReshapePlan& plan, const Iterate& iterate, const ProgressFn& progress, Positions& positions,
+            ReshapeResult& result) {
+  const Report& report = result.report;
+  const Progress now{"finish", report.passes, plan.options.pass_limit, 1, report.energy};
+  try {
+    const Poll poll = sparing([&] { return !progress || progress(now); });
+    if (const std::optional<Positions> spread = spread_dimples(plan, iterate, positions, poll)) {
+      result.finalised = true;
+      positions = *spread;
+    }
+  } catch (const Cancelled&) {
+    result.report.stop = Termination::cancelled;
+  }
 }
 
 ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const ReshapeResult* from,
@@ -165,25 +264,31 @@ ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const Reshape
   result.report.stop = Termination::cancelled;
   if (!prepare(changing, progress)) return result;
 
+  const ProgressFn solving = after_preparation(progress);
+  double coarse_seconds = 0;
+  if (plan.coarse && !from) {
+    const Stopwatch watch(coarse_seconds);
+    std::optional<Transforms> coarse = coarse_transforms(*plan.coarse, plan, gesture, solving);
+    if (!coarse) return result;
+    start.transforms = std::move(*coarse);
+  }
   const auto work = plan.workspaces.lend([&] { return workspace(plan); });
   Iterate iterate = begin(plan, *work, gesture, start);
+  if (plan.coarse) iterate.seconds["coarse_start"] = coarse_seconds;
   Positions positions = std::move(start.positions);
-  Alternation steps{[&](Positions& placed) { return place(plan, iterate, placed); },
-                    [&](const Positions&) { fit(plan, iterate); }};
+  Alternation steps{[&](Positions& placed, const Poll& poll) { return place(plan, iterate, placed, poll); },
+                    [&](const Positions&, const Poll& poll) { fit(plan, iterate, poll); }};
   if (plan.options.solver == ReshapeSolver::steady) {
     steps.next = [&](const Positions& before, const Positions& end) { return next_start(iterate, before, end); };
   }
-  result.report = alternate(stop_rule(plan, start.warm), after_preparation(progress), positions, steps);
+  result.report = alternate(stop_rule(plan, start.warm), solving, positions, steps);
   result.unfinished = plan.box.back(positions);
   if (plan.options.finalise && result.report.stop != Termination::cancelled) {
-    if (const std::optional<Positions> spread = spread_dimples(plan, iterate, positions)) {
-      result.finalised = true;
-      positions = *spread;
-    }
+    finish(plan, iterate, solving, positions, result);
   }
   result.positions = plan.box.back(positions);
   result.transforms = std::move(iterate.transforms);
-  tell(plan, iterate, result.report);
+  tell(plan, iterate, start.warm, result.report);
   return result;
 }
 

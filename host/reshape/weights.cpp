@@ -10,8 +10,8 @@ namespace {
 constexpr double kTriangles = 10000;  // Of the mesh for which the steady solver's weights are given.
 
 StepWeights as_given(const ReshapeWeights& w) {
-  return {w.normal,  w.sphericity, w.scale,  w.handle,     w.straightness,
-          w.connect, w.similarity, w.normal, w.sphericity, w.regularizer};
+  return {w.normal,     w.sphericity, w.scale,      w.handle,      w.straightness,      w.connect,
+          w.similarity, w.normal,     w.sphericity, w.regularizer, w.normal_regularizer};
 }
 
 /// Sums over a mesh grow as it is refined, each term's with its own power of the edge length L: so their proportions,
@@ -31,6 +31,7 @@ StepWeights at_resolution(const ReshapeWeights& w, double L, double L0) {
   weights.transform_normal *= L / L0;      // 1 / L² numbers without a unit.
   weights.transform_sphericity *= L / L0;  // The same.
   weights.regularizer *= L / L0;           // The same.
+  weights.normal_regularizer *= L / L0;    // The same.
   return weights;
 }
 
@@ -42,6 +43,7 @@ double edge_length(double area) { return std::sqrt(4 / std::sqrt(3.0) * area / k
 ReshapeWeights ReshapeWeights::published() {
   ReshapeWeights weights;
   weights.regularizer = 1e-4;
+  weights.normal_regularizer = 0;
   weights.handle = weights.straightness = 1e5;
   return weights;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "swage/error.h"
 
@@ -36,28 +37,31 @@ std::optional<Termination> ended(const StopRule& stop, const Report& report) {
 
 Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& positions, const Alternation& steps) {
   Report report;
+  const auto asked = [&] { return goes_on(progress, stop, report); };
+  const Poll poll = sparing(asked);
   Positions start = positions, last;
-  for (;;) {
-    if (!goes_on(progress, stop, report)) {
-      report.stop = Termination::cancelled;
-      break;
+  try {
+    for (;;) {
+      if (!asked()) throw Cancelled();
+      Positions placed = start;
+      const double energy = steps.place(placed, poll);
+      if (!std::isfinite(energy)) {
+        throw Unsolvable("alternate: the energy of pass " + std::to_string(report.passes) + " is not finite");
+      }
+      last = std::exchange(positions, std::move(placed));
+      report.energy = energy;
+      report.best_pass = report.passes++;
+      report.energies.push_back(energy);
+      report.movements.push_back(largest_movement(start, positions));
+      if (const std::optional<Termination> end = ended(stop, report)) {
+        report.stop = *end;
+        break;
+      }
+      start = steps.next ? steps.next(start, positions) : positions;
+      steps.fit(start, poll);
     }
-    last = positions;
-    positions = start;
-    report.energy = steps.place(positions);
-    if (!std::isfinite(report.energy)) {
-      throw Unsolvable("alternate: the energy of pass " + std::to_string(report.passes) + " is not finite");
-    }
-    ++report.passes;
-    report.best_pass = report.passes - 1;
-    report.energies.push_back(report.energy);
-    report.movements.push_back(largest_movement(start, positions));
-    if (const std::optional<Termination> end = ended(stop, report)) {
-      report.stop = *end;
-      break;
-    }
-    start = steps.next ? steps.next(start, positions) : positions;
-    steps.fit(start);
+  } catch (const Cancelled&) {
+    report.stop = Termination::cancelled;
   }
   if (report.stop == Termination::energy_rose) {
     positions = last;

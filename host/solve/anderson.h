@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 #include "swage/mesh.h"
 
@@ -18,6 +19,11 @@ class Anderson {
   /// Where the next pass is to start, after one that led from `start` to `end`. A combined start whose pass goes
   /// farther than twice the pass before led astray: all is forgotten, and the next starts where the pass before ended.
   Positions next(const Positions& start, const Positions& end);
+
+  std::size_t bytes() const {
+    return static_cast<std::size_t>(steps_.size() + ends_.size() + last_step_.size() + last_end_.size()) *
+           sizeof(double);
+  }
 
  private:
   void remember(const Eigen::VectorXd& step, const Eigen::VectorXd& end);

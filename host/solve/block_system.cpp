@@ -2,9 +2,11 @@
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "conjugate_gradients.h"
@@ -41,14 +43,18 @@ BlockSystem::BlockSystem(int group_count, int rows_per_group, const std::vector<
 }
 
 BlockSystem::BlockSystem(int width, std::shared_ptr<const Pattern> pattern)
-    : width_(width),
-      pattern_(std::move(pattern)),
-      factor_(pattern_->kind == FactorKind::supernodal ? supernodal_factor() : simplicial_factor()) {}
+    : width_(width), pattern_(std::move(pattern)) {
+  if (pattern_->kind == FactorKind::simplicial) factor_ = simplicial_factor();
+  if (pattern_->kind == FactorKind::supernodal) factor_ = supernodal_factor();
+}
 
 std::shared_ptr<const BlockSystem::Pattern> BlockSystem::pattern(int group_count, int width,
                                                                  const std::vector<std::pair<int, int>>& couplings,
                                                                  std::optional<FactorKind> kind) {
-  Pattern pattern = order(group_count, couplings);
+  const bool as_given = kind == FactorKind::none;
+  Pattern pattern = order(group_count, couplings, as_given);
+  pattern.kind = FactorKind::none;
+  if (as_given) return std::make_shared<const Pattern>(std::move(pattern));
   const std::int64_t entries = expected_entries(pattern, width);
   if (group_count == 0) kind = FactorKind::simplicial;  // CHOLMOD takes no empty matrix.
   pattern.kind = kind ? *kind : faster_kind(entries, static_cast<std::int64_t>(group_count) * width);
@@ -61,7 +67,8 @@ BlockSystem BlockSystem::unfactored() const {
   return other;
 }
 
-BlockSystem::Pattern BlockSystem::order(int group_count, const std::vector<std::pair<int, int>>& couplings) {
+BlockSystem::Pattern BlockSystem::order(int group_count, const std::vector<std::pair<int, int>>& couplings,
+                                        bool as_given) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(2 * couplings.size() + static_cast<size_t>(group_count));
   for (const auto& [i, j] : couplings) {
@@ -72,7 +79,9 @@ BlockSystem::Pattern BlockSystem::order(int group_count, const std::vector<std::
   for (int g = 0; g < group_count; ++g) entries.emplace_back(g, g, 1.0);
   SparseMatrix graph(group_count, group_count);
   graph.setFromTriplets(entries.begin(), entries.end());
-  const std::vector<int> elimination = elimination_order(graph);
+  std::vector<int> elimination(static_cast<size_t>(group_count));
+  std::iota(elimination.begin(), elimination.end(), 0);
+  if (!as_given) elimination = elimination_order(graph);
   Pattern pattern{std::vector<int>(static_cast<size_t>(group_count)),
                   std::vector<std::vector<int>>(static_cast<size_t>(group_count))};
   for (int p = 0; p < group_count; ++p) pattern.place[static_cast<size_t>(elimination[static_cast<size_t>(p)])] = p;
@@ -155,6 +164,47 @@ void BlockSystem::add(int i, int j, int row, const Eigen::Matrix3d& block) {
   }
 }
 
+BlockSystem::Stars BlockSystem::stars(
+    const Eigen::Ref<const Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>>& pairs) const {
+  Stars stars{std::vector<int>(pattern_->place.size() + 1, 0), {}};
+  for (const int group : pairs.reshaped()) ++stars.offsets[static_cast<size_t>(group) + 1];
+  std::partial_sum(stars.offsets.begin(), stars.offsets.end(), stars.offsets.begin());
+  stars.rays.resize(static_cast<size_t>(pairs.size()));
+  std::vector<int> next(stars.offsets.begin(), stars.offsets.end() - 1);
+  for (int pair = 0; pair < pairs.rows(); ++pair) {
+    for (int side = 0; side < 2; ++side) {
+      const auto group = static_cast<size_t>(pairs(pair, side)), other = static_cast<size_t>(pairs(pair, 1 - side));
+      const int p = pattern_->place[group], q = pattern_->place[other];
+      stars.rays[static_cast<size_t>(next[group]++)] = {pair, q < p ? offset(q, p) : -1};
+    }
+  }
+  return stars;
+}
+
+void BlockSystem::add_differences(const Stars& stars,
+                                  const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& blocks) {
+  constexpr Eigen::Index kWorthThreads = 20000;
+  constexpr std::array<std::array<int, 3>, 3> kPacked = {{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+  const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
+#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+  for (Eigen::Index group = 0; group < groups; ++group) {
+    const auto p = static_cast<size_t>(pattern_->place[static_cast<size_t>(group)]);
+    const std::array<double*, 3> columns = {matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * p],
+                                            matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * p + 1],
+                                            matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * p + 2]};
+    const auto start = 3 * pattern_->above[p].size();
+    for (int k = stars.offsets[static_cast<size_t>(group)]; k < stars.offsets[static_cast<size_t>(group) + 1]; ++k) {
+      const Stars::Ray& ray = stars.rays[static_cast<size_t>(k)];
+      const double* block = blocks.data() + Eigen::Index{6} * ray.pair;
+      for (size_t c = 0; c < 3; ++c) {
+        for (size_t r = 0; r <= c; ++r) columns[c][start + r] += block[kPacked[c][r]];
+        if (ray.above < 0) continue;
+        for (size_t r = 0; r < 3; ++r) columns[c][static_cast<size_t>(ray.above) + r] -= block[kPacked[c][r]];
+      }
+    }
+  }
+}
+
 void BlockSystem::factor() {
   if (!analyzed_) factor_->analyze(matrix_);
   analyzed_ = true;
@@ -205,11 +255,15 @@ Eigen::VectorXd BlockSystem::solve_near(const Eigen::Ref<const Eigen::VectorXd>&
     Eigen::MatrixXd sides, solution;
     into_order(right_hand_side, sides);
     into_order(guess, solution);
+    const Eigen::VectorXd side = sides.col(0);
     Eigen::VectorXd near = solution.col(0);
     const Gradients done = conjugate_gradients(
-        [this](const Eigen::VectorXd& x) { return Eigen::VectorXd(matrix_.selfadjointView<Eigen::Upper>() * x); },
-        [this](Eigen::VectorXd& x) { panels_ ? panels_->solve(x) : factor_->solve(x); }, sides.col(0), kNear,
-        kIterationsOfAFactor, near);
+        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = matrix_.selfadjointView<Eigen::Upper>() * x; },
+        [this](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
+          error = residual;
+          panels_ ? panels_->solve(error) : factor_->solve(error);
+        },
+        side, kNear, kIterationsOfAFactor, near);
     factor_is_near_ = 2 * done.iterations <= kIterationsOfAFactor;
     if (done.converged) return as_given(near);
   }

@@ -20,8 +20,9 @@ namespace swage {
 class BlockSystem {
  public:
   /// `couplings`: pairs of different groups that share a term, in any order, repeats allowed. Without `kind` the factor
-  /// is the one that is faster at this size, of those that this build has. Throws Unsolvable where the factor would
-  /// have more entries than int counts.
+  /// is the one that is faster at this size, of those that this build has; of kind none, groups stay in the order
+  /// given, and nothing that needs a factor may be called. Throws Unsolvable where the factor would have more entries
+  /// than int counts.
   BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings,
               std::optional<FactorKind> kind = {});
 
@@ -36,6 +37,19 @@ class BlockSystem {
   void add(int group, const Eigen::Ref<const Eigen::MatrixXd>& block);
   /// Adds `block` at (i, j) and its transpose at (j, i), for row `row` of the groups.
   void add(int i, int j, int row, const Eigen::Matrix3d& block);
+
+  /// Pairs of groups of one row, seen from each group, with where their blocks stand.
+  struct Stars {
+    struct Ray {
+      int pair, above;  ///< `above`: where the pair's block begins in the columns of the group, -1 in the other's.
+    };
+    std::vector<int> offsets;  ///< Rays of a group stand at offsets[group] .. offsets[group + 1], by pair.
+    std::vector<Ray> rays;
+  };
+  /// Pairs are coupled, and of different groups.
+  Stars stars(const Eigen::Ref<const Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>>& pairs) const;
+  /// Adds the matrix of sum_pairs (x_i - x_j)' block (x_i - x_j), blocks as xx, xy, xz, yy, yz, zz.
+  void add_differences(const Stars& stars, const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& blocks);
 
   /// Throws Unsolvable, naming the group, where the matrix is not positive definite.
   void factor();
@@ -60,8 +74,9 @@ class BlockSystem {
   /// The matrix times a vector of all groups one after the other.
   Eigen::VectorXd times(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
 
+  bool has_factor() const { return factor_ || panels_; }
   Eigen::Index unknowns() const { return matrix_.rows(); }
-  Eigen::Index factor_entries() const { return factor_ ? factor_->entries() : kept_entries_; }
+  Eigen::Index factor_entries() const { return factor_ && analyzed_ ? factor_->entries() : kept_entries_; }
   /// Of the matrix and its factor.
   std::size_t bytes() const;
 
@@ -81,7 +96,7 @@ class BlockSystem {
   static std::shared_ptr<const Pattern> pattern(int group_count, int width,
                                                 const std::vector<std::pair<int, int>>& couplings,
                                                 std::optional<FactorKind> kind);
-  static Pattern order(int group_count, const std::vector<std::pair<int, int>>& couplings);
+  static Pattern order(int group_count, const std::vector<std::pair<int, int>>& couplings, bool as_given);
   /// Entries of the factor below its diagonal and on it, by blocks. Throws where int cannot count them.
   static std::int64_t expected_entries(const Pattern& pattern, int width);
   BlockSystem(int width, std::shared_ptr<const Pattern> pattern);

@@ -12,8 +12,8 @@ namespace swage {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Column by column, or by dense blocks of columns that share their rows.
-enum class FactorKind { simplicial, supernodal };
+/// Column by column, or by dense blocks of columns that share their rows; or none, for a matrix that only multiplies.
+enum class FactorKind { none, simplicial, supernodal };
 
 /// Reads the matrix's upper triangle, whose columns stand in an order that fills the factor little. Several factors may
 /// work at once, each in one thread, and several threads may solve by one.

@@ -1,6 +1,7 @@
 // How a solve is followed, stopped and told about afterwards.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -48,7 +49,9 @@ struct Report {
   std::map<std::string, double> energy_by_term;  ///< Its parts, weighted.
   std::vector<double> energies;                  ///< After each pass.
   std::vector<double> movements;  ///< How far each pass moved a vertex at most from where it started, solver units.
-  std::map<std::string, double> seconds;  ///< Wall time by stage.
+  std::map<std::string, double> seconds;     ///< Wall time by stage.
+  std::map<std::string, std::size_t> bytes;  ///< Memory by part, after the last pass; the largest parts.
+  std::map<std::string, std::string> paths;  ///< Of several ways to do something the one taken, and why.
   std::vector<std::string> warnings;
 };
 

@@ -4,6 +4,7 @@
 // ACM Transactions on Graphics 42(6), 2023. https://doi.org/10.1145/3618391
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -27,20 +28,34 @@ enum class ReshapeSolver {
 /// "steady", "published".
 const char* to_string(ReshapeSolver solver);
 
+/// What the two global systems of a pass are solved by: three unknowns a vertex, nine a triangle.
+enum class LinearSolver {
+  automatic,  ///< Vertices by multigrid from 1,500 on and where no chains are straight, else by a factor; transforms by
+              ///< a factor where it fits into ReshapeOptions::factor_memory, else by multigrid.
+  factor,     ///< Sparse Cholesky. The transforms' takes 2.5 GB at 84,000 triangles, and grows faster than the mesh.
+  multigrid,  ///< Conjugate gradients preconditioned by aggregation multigrid, far enough for the passes to reach the
+              ///< same fixed point within their stop's tolerance. Straight chains still have their vertices factored.
+              ///< Steady solver only.
+};
+
+/// "auto", "factor", "multigrid".
+const char* to_string(LinearSolver solver);
+
 /// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box. Finite, none negative;
 /// handle and regularizer above 0. The defaults are the steady solver's, which takes them as of a mesh of 10,000 equal
 /// triangles and scales them to the one given.
 struct ReshapeWeights {
-  double normal = 10;           ///< w_normal
-  double similarity = 1;        ///< of E_similarity
-  double connect = 1;           ///< of E_connect
-  double sphericity = 1;        ///< of E_sphericity
-  double scale = 1e-4;          ///< w_scale
-  double regularizer = 1e-3;    ///< w_reg
-  double handle = 2.5e5;        ///< w_constr of E_pos
-  double straightness = 2.5e5;  ///< w_constr of E_straight
+  double normal = 10;                ///< w_normal
+  double similarity = 1;             ///< of E_similarity
+  double connect = 1;                ///< of E_connect
+  double sphericity = 1;             ///< of E_sphericity
+  double scale = 1e-4;               ///< w_scale
+  double regularizer = 1e-3;         ///< w_reg
+  double normal_regularizer = 3e-3;  ///< Of |T n - n|², which the paper has not (host/reshape/steady.md).
+  double handle = 2.5e5;             ///< w_constr of E_pos
+  double straightness = 2.5e5;       ///< w_constr of E_straight
 
-  /// The paper's: regularizer 1e-4, handle and straightness 1e5.
+  /// The paper's: regularizer 1e-4, none of the normal's, handle and straightness 1e5.
   static ReshapeWeights published();
 };
 
@@ -55,9 +70,13 @@ struct ReshapeOptions {
   double movement = 1e-3;                         ///< Steady: in mean edge lengths, above 0. The farthest that one more
                                                   ///< pass would move a vertex.
   int acceleration_window = 5;                    ///< Steady: passes that the next start is made of; 0 for plain ones.
-  bool finalise = true;                           ///< Spread dimples at handles (appendix A).
-  bool refactor_every_pass = false;               ///< As published: the same result, slower. For comparison.
-  std::shared_ptr<Backend> backend;               ///< Does the local steps; cpu_backend() where none is given.
+  LinearSolver linear_solver = LinearSolver::automatic;
+  std::size_t factor_memory = 0;     ///< Bytes that automatic lets factors take; 0 for a quarter of the
+                                     ///< machine's memory, whoever else uses it, at most 4 GiB.
+  bool coarse_start = true;          ///< Steady, from 40,000 triangles on: first solve a coarse stand-in.
+  bool finalise = true;              ///< Spread dimples at handles (appendix A).
+  bool refactor_every_pass = false;  ///< As published: the same result, slower. For comparison.
+  std::shared_ptr<Backend> backend;  ///< Does the local steps; cpu_backend() where none is given.
 };
 
 struct ReshapeResult {

@@ -45,6 +45,7 @@ class TransformStep {
     double mean_edge_length = 0;                 ///< L_avg
     double normal_weight = 0, scale_weight = 0;  ///< Of the vertex step.
     double connect_weight = 0, transform_normal_weight = 0, regularizer_weight = 0;  ///< Of the transform step.
+    double normal_regularizer_weight = 0;    ///< The same: of |T n - n|², which counts as part of the regularizer.
     double transform_sphericity_factor = 1;  ///< Times the sphericity weight: of the transform step.
   };
 

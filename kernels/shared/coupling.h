@@ -1,6 +1,6 @@
 // Terms of the transform step's matrix (reshape paper, eq. 35), in C99 ∩ C++, after rows.h.
 
-/// Of a triangle alone: `vectors` sums e e' / L over its edges, `directions` d d'.
+/// Of a triangle alone: `vectors` sums e e' / L over its edges and the normal regularizer's n n', `directions` d d'.
 static inline Rows own_product(Rows transform, Rows vectors, Rows directions, Row normal, real normal_weight,
                                real regularizer_weight) {
   const Row tilts = row_times(row_times(normal, transform), directions);

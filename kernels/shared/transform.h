@@ -122,15 +122,22 @@ static inline real distance_from_identity(Mat3 transform) {
   return inner3(change, change);
 }
 
+/// How far the normal's own image is from it, squared.
+static inline real distance_from_normal(Mat3 transform, Vec3 normal) {
+  const Vec3 change = sub3(apply3(transform, normal), normal);
+  return dot3(change, change);
+}
+
 /// A triangle's right-hand side of the transform step and its terms of the energy, without their weights.
 typedef struct {
   Mat3 right_hand_side;
   real transform, normal, scale;
 } TriangleTerms;
 
-static inline TriangleTerms no_edges(real regularizer_weight) {
+static inline TriangleTerms no_edges(Vec3 normal, real regularizer_weight, real normal_regularizer_weight) {
   TriangleTerms terms;
-  terms.right_hand_side = full3(diagonal3(regularizer_weight));
+  terms.right_hand_side =
+      add_mat3(full3(diagonal3(regularizer_weight)), outer3(scale3(normal_regularizer_weight, normal), normal));
   terms.transform = terms.normal = terms.scale = (real)0;
   return terms;
 }

@@ -106,7 +106,8 @@ TEST_F(Reshaping, AReportHasItsKeys) {
                           "energy_by_term", "handle_error_unfinished",
                           "finalised",      "normal_error_deg",
                           "seconds",        "peak_memory_mb",
-                          "traffic",        "warnings"}) {
+                          "traffic",        "warnings",
+                          "paths",          "memory_mb_by_part"}) {
     EXPECT_TRUE(report.contains(key)) << key;
     EXPECT_FALSE(report.value(key, json()).is_null()) << key;
   }
@@ -118,6 +119,18 @@ TEST_F(Reshaping, AReportHasItsKeys) {
   EXPECT_LT(report["best_iteration"], report["iterations"]);
   EXPECT_GT(report["peak_memory_mb"], 1);
   EXPECT_TRUE(report["warnings"].empty());
+}
+
+TEST_F(Reshaping, TheLinearSolverIsAsAskedAndToldWithItsReason) {
+  for (const char* solver : {"factor", "multigrid"}) {
+    const json report = json::parse(reshape({"--json", "-", "--linear-solver", solver}).out);
+    EXPECT_EQ(report["paths"]["transform_step"], solver + std::string(": as asked"));
+    EXPECT_EQ(report["paths"]["start"], "rest: 108 triangles");
+  }
+  EXPECT_EQ(reshape({"--linear-solver", "lu"}).code, 2);
+  const Outcome refused = reshape({"--json", "-", "--linear-solver", "multigrid", "--solver", "published"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--linear-solver"), std::string::npos) << refused.err;
 }
 
 TEST_F(Reshaping, AReportAddsUp) {

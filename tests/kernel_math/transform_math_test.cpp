@@ -55,7 +55,9 @@ struct Single {
   using Sides = in_single::Sides;
   using Rows = in_single::Rows;
   static constexpr double kTolerance = 2e-6;
-  static in_single::TriangleTerms no_edges(float regularizer) { return in_single::no_edges(regularizer); }
+  static in_single::TriangleTerms no_edges(Vec3 normal, float regularizer, float normal_regularizer) {
+    return in_single::no_edges(normal, regularizer, normal_regularizer);
+  }
 };
 
 struct Twice {
@@ -69,7 +71,9 @@ struct Twice {
   using Sides = in_double::Sides;
   using Rows = in_double::Rows;
   static constexpr double kTolerance = 1e-14;
-  static in_double::TriangleTerms no_edges(double regularizer) { return in_double::no_edges(regularizer); }
+  static in_double::TriangleTerms no_edges(Vec3 normal, double regularizer, double normal_regularizer) {
+    return in_double::no_edges(normal, regularizer, normal_regularizer);
+  }
 };
 
 template <typename Maths>
@@ -250,9 +254,11 @@ TYPED_TEST(TransformMath, TriangleTermsAreTheFormulas) {
     const Matrix3d inverse = this->near_identity();
     const Vector3d normal = this->vector(), edge = this->vector(), rest = this->vector();
     const double own = round % 2;
-    const auto terms = add_edge(TypeParam::no_edges(this->to(0.25)), this->to(inverse), this->to(normal),
-                                this->to(edge), this->to(rest), 2, this->to(own), 4);
-    const Matrix3d side = 0.25 * Matrix3d::Identity() + edge * rest.transpose() / 4;
+    const auto none = TypeParam::no_edges(this->to(normal), this->to(0.25), this->to(0.75));
+    const auto terms =
+        add_edge(none, this->to(inverse), this->to(normal), this->to(edge), this->to(rest), 2, this->to(own), 4);
+    const Matrix3d pulls = 0.25 * Matrix3d::Identity() + 0.75 * normal * normal.transpose();
+    const Matrix3d side = pulls + edge * rest.transpose() / 4;
     EXPECT_LT((this->from(terms.right_hand_side) - side).norm(), TypeParam::kTolerance * side.norm());
     // Differences lose what cancels: tolerances are of what is subtracted.
     auto expect = [&](double term, double expected, double of) {
@@ -272,6 +278,8 @@ TYPED_TEST(TransformMath, DistancesOfTransformsAreTheFormulas) {
     const Vector3d direction = this->vector();
     EXPECT_NEAR(distance_from_identity(this->to(transform)), (transform - Matrix3d::Identity()).squaredNorm(),
                 10 * TypeParam::kTolerance);
+    EXPECT_NEAR(distance_from_normal(this->to(transform), this->to(direction)),
+                (transform * direction - direction).squaredNorm(), 100 * TypeParam::kTolerance);
     const auto difference = sub_mat3(this->to(transform), this->to(other));
     EXPECT_NEAR(disagreement(difference, this->to(direction)), ((transform - other) * direction).squaredNorm(),
                 20 * TypeParam::kTolerance * direction.squaredNorm());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
 
 #include "swage/error.h"
@@ -17,11 +18,11 @@ struct Script {
   int fits = 0;
 
   Alternation steps() {
-    return {[this](Positions& positions) {
+    return {[this](Positions& positions, const Poll&) {
               positions(0, 0) += movements[static_cast<size_t>(passes)];
               return energies[static_cast<size_t>(passes++)];
             },
-            [this](const Positions&) { ++fits; }};
+            [this](const Positions&, const Poll&) { ++fits; }};
   }
 };
 
@@ -87,6 +88,46 @@ TEST(Alternate, ACancelKeepsTheLastCompletePass) {
   EXPECT_EQ(positions(0, 0), 2);
 }
 
+TEST(Alternate, ACancelWithinAStepKeepsTheLastCompletePass) {
+  for (const bool while_placing : {true, false}) {
+    Script script{{9, 8, 7}, {1, 1, 1}};
+    Alternation steps = script.steps();
+    if (while_placing) {
+      steps.place = [&, place = steps.place](Positions& positions, const Poll& poll) {
+        const double energy = place(positions, poll);
+        if (script.passes == 3) throw Cancelled();
+        return energy;
+      };
+    } else {
+      steps.fit = [&](const Positions&, const Poll&) {
+        if (script.passes == 2) throw Cancelled();
+      };
+    }
+    Positions positions = origin();
+    const Report report = alternate({}, {}, positions, steps);
+    EXPECT_EQ(report.stop, Termination::cancelled);
+    EXPECT_EQ(report.passes, 2);
+    EXPECT_EQ(report.energies, (std::vector<double>{9, 8}));
+    EXPECT_EQ(positions(0, 0), 2);
+  }
+}
+
+TEST(Alternate, AStepThatPollsForLongIsCancelled) {
+  Script script{{9}, {1}};
+  Alternation steps = script.steps();
+  steps.place = [](Positions&, const Poll& poll) -> double {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (std::chrono::steady_clock::now() < end) poll();
+    return 9;
+  };
+  int asked = 0;
+  Positions positions = origin();
+  const Report report = alternate(
+      {}, [&](const Progress&) { return ++asked < 3; }, positions, steps);
+  EXPECT_EQ(report.stop, Termination::cancelled);
+  EXPECT_EQ(asked, 3);
+}
+
 TEST(Alternate, PassesThatWatchMovementAloneLetTheEnergyRise) {
   StopRule stop;
   stop.by_energy = false;
@@ -103,7 +144,7 @@ TEST(Alternate, PassesThatWatchMovementAloneLetTheEnergyRise) {
 Alternation leaping(Script& script, std::vector<double>& fitted) {
   Alternation steps = script.steps();
   steps.next = [](const Positions&, const Positions& end) { return Positions(end.array() + 10); };
-  steps.fit = [&](const Positions& start) { fitted.push_back(start(0, 0)); };
+  steps.fit = [&](const Positions& start, const Poll&) { fitted.push_back(start(0, 0)); };
   return steps;
 }
 

@@ -25,9 +25,10 @@ Problem problem(int size, double condition) {
 
 Gradients solve(const Problem& p, const Eigen::MatrixXd& preconditioner, double tolerance, int limit,
                 Eigen::VectorXd& x) {
-  return conjugate_gradients([&](const Eigen::VectorXd& v) { return Eigen::VectorXd(p.matrix * v); },
-                             [&](Eigen::VectorXd& v) { v = preconditioner.llt().solve(v); }, p.right_hand_side,
-                             tolerance, limit, x);
+  return conjugate_gradients(
+      [&](const Eigen::VectorXd& v, Eigen::VectorXd& image) { image = p.matrix * v; },
+      [&](const Eigen::VectorXd& residual, Eigen::VectorXd& error) { error = preconditioner.llt().solve(residual); },
+      p.right_hand_side, tolerance, limit, x);
 }
 
 TEST(ConjugateGradients, SolvesInAsManyIterationsAsUnknownsAtMost) {

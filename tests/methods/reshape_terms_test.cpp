@@ -49,6 +49,7 @@ struct Case {
 ReshapeWeights no_weights() {
   ReshapeWeights none;
   none.normal = none.similarity = none.connect = none.sphericity = none.scale = none.straightness = 0;
+  none.normal_regularizer = 0;
   none.regularizer = none.handle = 1e-12;
   return none;
 }
@@ -250,6 +251,11 @@ TEST(TransformStepTerms, Regularizer) {
                         [](const TransformStep::Energy& e) { return e.regularizer; });
 }
 
+TEST(TransformStepTerms, NormalRegularizer) {
+  expect_transform_term([](ReshapeWeights& w) { w.normal_regularizer = 3; },
+                        [](const TransformStep::Energy& e) { return e.regularizer; });
+}
+
 // Scaled to the mesh's resolution, matrix and energy alike.
 TEST(TransformStepTerms, OfTheSteadySolver) {
   using Energy = TransformStep::Energy;
@@ -257,7 +263,8 @@ TEST(TransformStepTerms, OfTheSteadySolver) {
       {[](ReshapeWeights& w) { w.connect = 3; }, [](const Energy& e) { return e.connect; }},
       {[](ReshapeWeights& w) { w.similarity = 3; }, [](const Energy& e) { return e.similarity; }},
       {[](ReshapeWeights& w) { w.sphericity = 3; }, [](const Energy& e) { return e.transform_sphericity; }},
-      {[](ReshapeWeights& w) { w.regularizer = 3; }, [](const Energy& e) { return e.regularizer; }}};
+      {[](ReshapeWeights& w) { w.regularizer = 3; }, [](const Energy& e) { return e.regularizer; }},
+      {[](ReshapeWeights& w) { w.normal_regularizer = 3; }, [](const Energy& e) { return e.regularizer; }}};
   for (const auto& [weigh, term] : terms) expect_transform_term(weigh, term, ReshapeSolver::steady);
 }
 

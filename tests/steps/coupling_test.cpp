@@ -61,6 +61,7 @@ TEST(CouplingStep, KeepsIdentitiesUpToTheirOwnPull) {
   const Transforms product = product_by(*cpu_backend(), rest, identities(rest.triangles.rows()));
   for (Eigen::Index t = 0; t < product.rows(); ++t) {
     Eigen::Matrix3d pull = rest.regularizer_weight * Eigen::Matrix3d::Identity();
+    pull += rest.normal_regularizer_weight * rest.normals.row(t).transpose() * rest.normals.row(t);
     for (const int e : rest.triangle_edges.row(t)) {
       pull += rest.edge_vectors.row(e).transpose() * rest.edge_vectors.row(e) / rest.mean_edge_length;
     }

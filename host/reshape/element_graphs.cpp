@@ -1,0 +1,69 @@
+// The two global systems as multigrid takes them: own terms and couplings.
+#include "element_graphs.h"
+
+#include "sphericity.h"
+
+namespace swage {
+namespace {
+
+using Row6 = Eigen::Matrix<float, 1, 6>;
+
+Row6 packed(const Eigen::Matrix3d& m) {
+  Row6 row;
+  row << static_cast<float>(m(0, 0)), static_cast<float>(m(0, 1)), static_cast<float>(m(0, 2)),
+      static_cast<float>(m(1, 1)), static_cast<float>(m(1, 2)), static_cast<float>(m(2, 2));
+  return row;
+}
+
+/// A corner's term is at most what twice the squares of its two sides are.
+void add_corners(const TransformStep::Rest& rest, ElementGraph& graph) {
+  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
+    if (rest.sphericities[t] == 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int e = rest.triangle_edges(t, k);
+      // Each side is beside two corners of the triangle.
+      const auto weight = static_cast<float>(4 * rest.sphericities[t] / rest.edge_vectors.row(e).squaredNorm());
+      graph.couplings.row(e) += weight * (Row6() << 1, 0, 0, 1, 0, 1).finished();
+    }
+  }
+}
+
+}  // namespace
+
+ElementGraph transform_graph(const TransformStep::Rest& rest) {
+  ElementGraph graph;
+  graph.rows = 3;
+  graph.couplings.resize(rest.pairs.rows(), 6);
+  graph.pairs.reserve(static_cast<size_t>(rest.pairs.rows()));
+  for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) {
+    graph.pairs.emplace_back(rest.pairs(p, 0), rest.pairs(p, 1));
+    graph.couplings.row(p) = packed(pair_block(rest, p));
+  }
+  graph.own.resize(rest.triangles.rows(), 45);
+  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
+    const Eigen::Matrix<double, 9, 9> block = triangle_block(rest, t);
+    for (int i = 0, k = 0; i < 9; ++i) {
+      for (int j = 0; j <= i; ++j) graph.own(t, k++) = static_cast<float>(block(i, j));
+    }
+  }
+  return graph;
+}
+
+ElementGraph vertex_graph(const TransformStep::Rest& rest, const TransformStep::EdgeQuadratics& quadratics,
+                          const std::vector<Holds>& holds) {
+  ElementGraph graph;
+  graph.rows = 1;
+  graph.couplings = quadratics.blocks.cast<float>();
+  graph.pairs.reserve(static_cast<size_t>(rest.edges.rows()));
+  for (const auto& edge : rest.edges.rowwise()) graph.pairs.emplace_back(edge[0], edge[1]);
+  add_corners(rest, graph);
+  graph.own.setZero(rest.vertices.rows(), 6);
+  for (const Holds& held : holds) {
+    for (const int v : held.vertices) {
+      for (const int diagonal : {0, 2, 5}) graph.own(v, diagonal) += static_cast<float>(held.weight);
+    }
+  }
+  return graph;
+}
+
+}  // namespace swage

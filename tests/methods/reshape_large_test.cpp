@@ -1,0 +1,164 @@
+// What large meshes take: multigrid in place of factors, coarse starts, and cancelling within a pass.
+#include <gtest/gtest.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <string>
+
+#include "measures.h"
+#include "opencl_device.h"
+#include "shapes.h"
+#include "swage/error.h"
+#include "swage/reshape.h"
+
+namespace swage {
+namespace {
+
+/// The lowest vertex held, the highest moved.
+Gesture lift_top(const Mesh& mesh, const Eigen::Vector3d& by) {
+  Eigen::Index low = 0, high = 0;
+  mesh.positions.col(1).minCoeff(&low);
+  mesh.positions.col(1).maxCoeff(&high);
+  Gesture gesture;
+  gesture.add(static_cast<int>(low), mesh.positions.row(low));
+  gesture.add(static_cast<int>(high), mesh.positions.row(high).transpose() + by);
+  return gesture;
+}
+
+/// The farthest a vertex is from its place in the other, in mean edge lengths.
+double apart(const Mesh& mesh, const ReshapeResult& a, const ReshapeResult& b) {
+  return (a.positions - b.positions).rowwise().norm().maxCoeff() / mean_edge_length(mesh.positions, mesh.triangles);
+}
+
+ReshapeOptions by(LinearSolver solver) {
+  ReshapeOptions options;
+  options.linear_solver = solver;
+  return options;
+}
+
+ReshapeResult solved(const Mesh& mesh, const ReshapeOptions& options) {
+  return reshape(mesh.positions, mesh.triangles, lift_top(mesh, {0.1, 0.5, 0}), options);
+}
+
+TEST(LinearSolver, MultigridGoesToTheFactorsFixedPoint) {
+  for (const Mesh& mesh : {test::cylinder(0.3, 1, 48, 40), test::sphere(0.5, 4), test::box({1, 2, 0.5}, 16)}) {
+    const ReshapeResult factor = solved(mesh, by(LinearSolver::factor));
+    const ReshapeResult multigrid = solved(mesh, by(LinearSolver::multigrid));
+    EXPECT_EQ(factor.report.stop, Termination::moved_little);
+    EXPECT_EQ(multigrid.report.stop, Termination::moved_little);
+    EXPECT_LT(apart(mesh, multigrid, factor), 0.03);
+    EXPECT_LE(multigrid.report.passes, 2 * factor.report.passes);
+  }
+}
+
+TEST(LinearSolver, MultigridOnADeviceIsThatOnTheCpu) {
+  const auto backend = test::opencl_or_skip(Precision::twice);
+  if (!backend) return;
+  const Mesh mesh = test::cylinder(0.3, 1, 48, 40);
+  ReshapeOptions options = by(LinearSolver::multigrid);
+  const ReshapeResult cpu = solved(mesh, options);
+  options.backend = backend;
+  EXPECT_LT(apart(mesh, solved(mesh, options), cpu), 1e-3);
+}
+
+TEST(LinearSolver, AutomaticGoesByTheFactorsMemoryAndSaysSo) {
+  const Mesh mesh = test::cylinder(0.3, 1, 48, 40);
+  ReshapeOptions options;
+  options.factor_memory = 1'000'000;
+  const Report little = solved(mesh, options).report;
+  EXPECT_EQ(little.paths.at("transform_step").find("multigrid: a factor takes about 0.1 GB, over 0.0 GB"), 0U)
+      << little.paths.at("transform_step");
+  options.factor_memory = 1'000'000'000;
+  const Report enough = solved(mesh, options).report;
+  EXPECT_EQ(enough.paths.at("transform_step").find("factor: "), 0U) << enough.paths.at("transform_step");
+  EXPECT_GT(enough.bytes.at("transform_system"), 2 * little.bytes.at("transform_system"));
+}
+
+// The estimate that decides, against the factor that is made: 12 bytes an entry while it is.
+TEST(LinearSolver, AFactorTakesAboutWhatWasEstimated) {
+  const Mesh mesh = test::cylinder(0.3, 1, 120, 84);
+  ReshapeOptions options = by(LinearSolver::factor);
+  options.pass_limit = 1;
+  const double bytes = static_cast<double>(solved(mesh, options).report.bytes.at("transform_system"));
+  const auto triangles = static_cast<double>(mesh.triangles.rows());
+  const double estimate = 150 * triangles * std::log2(triangles) * 4;  // Kept: single precision.
+  EXPECT_GT(bytes, 0.6 * estimate);
+  EXPECT_LT(bytes, 1.8 * estimate);
+}
+
+TEST(LinearSolver, StraightChainsHaveTheirVerticesFactored) {
+  const Mesh mesh = test::box({1, 2, 0.5}, 16);
+  ReshapeOptions options = by(LinearSolver::multigrid);
+  const Edges edges = edges_of(mesh.triangles);
+  options.straight_chains = {{edges.vertices(0, 0), edges.vertices(0, 1)}};
+  const Lists ring = one_rings(edges, static_cast<int>(mesh.positions.rows()));
+  options.straight_chains[0].push_back(ring[edges.vertices(0, 1)][0] == edges.vertices(0, 0)
+                                           ? ring[edges.vertices(0, 1)][1]
+                                           : ring[edges.vertices(0, 1)][0]);
+  const Report report = solved(mesh, options).report;
+  EXPECT_EQ(report.paths.at("vertex_step").find("factor: straight chains"), 0U) << report.paths.at("vertex_step");
+  EXPECT_EQ(report.paths.at("transform_step"), "multigrid: as asked");
+}
+
+TEST(LinearSolver, ThePublishedSolverHasNoMultigrid) {
+  const Mesh mesh = test::box();
+  ReshapeOptions options = by(LinearSolver::multigrid);
+  options.solver = ReshapeSolver::published;
+  EXPECT_THROW(Reshape(mesh.positions, mesh.triangles, options), InvalidInput);
+  options.solver = ReshapeSolver::steady;
+  options.refactor_every_pass = true;
+  EXPECT_THROW(Reshape(mesh.positions, mesh.triangles, options), InvalidInput);
+}
+
+Mesh large() { return test::cylinder(0.3, 1, 180, 120); }
+
+TEST(CoarseStart, GoesToTheSameFixedPoint) {
+  const Mesh mesh = large();
+  ASSERT_GE(mesh.triangles.rows(), 40'000);
+  ReshapeOptions options = by(LinearSolver::multigrid);
+  const ReshapeResult coarse = solved(mesh, options);
+  EXPECT_EQ(coarse.report.paths.at("start").find("coarse: of "), 0U) << coarse.report.paths.at("start");
+  EXPECT_GT(coarse.report.bytes.at("coarse_start"), 0U);
+  options.coarse_start = false;
+  const ReshapeResult fine = solved(mesh, options);
+  EXPECT_EQ(fine.report.paths.at("start"), "rest: as asked");
+  EXPECT_LT(apart(mesh, coarse, fine), 0.05);
+  EXPECT_LE(coarse.report.passes, fine.report.passes + 5);
+}
+
+TEST(CoarseStart, IsCancelled) {
+  const Mesh mesh = large();
+  Reshape prepared(mesh.positions, mesh.triangles, by(LinearSolver::multigrid));
+  const ReshapeResult result = prepared.solve(lift_top(mesh, {0, 0.5, 0}),
+                                              [](const Progress& now) { return now.stage != std::string("coarse"); });
+  EXPECT_EQ(result.report.stop, Termination::cancelled);
+  EXPECT_EQ(result.positions, mesh.positions);
+}
+
+#ifdef _OPENMP
+TEST(Cancel, WithinAPassGivesTheLastCompleteOne) {
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);  // So that passes take long enough to be asked within.
+  const Mesh mesh = test::sphere(0.5, 6);
+  ReshapeOptions options = by(LinearSolver::multigrid);
+  options.coarse_start = false;
+  Reshape prepared(mesh.positions, mesh.triangles, options);
+  const Gesture gesture = lift_top(mesh, {0, 0.5, 0});
+  int asked = 0;
+  const ReshapeResult cancelled = prepared.solve(gesture, [&](const Progress& now) {
+    asked = now.pass == 2 ? asked + 1 : 0;
+    return asked < 2;
+  });
+  EXPECT_EQ(cancelled.report.stop, Termination::cancelled);
+  EXPECT_EQ(cancelled.report.passes, 2);
+  options.pass_limit = 2;
+  options.finalise = false;
+  EXPECT_EQ(cancelled.positions, reshape(mesh.positions, mesh.triangles, gesture, options).positions);
+  omp_set_num_threads(threads);
+}
+#endif
+
+}  // namespace
+}  // namespace swage
