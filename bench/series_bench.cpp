@@ -6,7 +6,7 @@
 // meanwhile (of its whole life so far where /proc/self/clear_refs may not be written).
 //
 // Meshes above 500,000 triangles are left out unless SWAGE_BENCH_LARGE=1 stands in the environment: they take many
-// minutes and tens of GB. Where the factor does not fit, the benchmark reports the error's text.
+// minutes and 5 GB.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -53,7 +53,10 @@ ElementGraph vertex_graph(const TransformStep::Rest& rest, const TransformStep::
                           const std::vector<Holds>& holds) {
   ElementGraph graph;
   graph.rows = 1;
-  graph.couplings = quadratics.blocks.cast<float>();
+  // A transform that is nearly singular makes its edges stiffer than single precision tells from rigid.
+  const double stiffest = 1e4 / (rest.mean_edge_length * rest.mean_edge_length);
+  const Eigen::ArrayXd stiffness = quadratics.blocks.col(0) + quadratics.blocks.col(3) + quadratics.blocks.col(5);
+  graph.couplings = ((stiffest / stiffness).min(1).matrix().asDiagonal() * quadratics.blocks).cast<float>();
   graph.pairs.reserve(static_cast<size_t>(rest.edges.rows()));
   for (const auto& edge : rest.edges.rowwise()) graph.pairs.emplace_back(edge[0], edge[1]);
   add_corners(rest, graph);

@@ -9,7 +9,8 @@ namespace swage {
 /// The transform step's, whole.
 ElementGraph transform_graph(const TransformStep::Rest& rest);
 
-/// The vertex step's: of the sphericity term a bound that couples neighbours alone, without straight chains.
+/// The vertex step's: of the sphericity term a bound that couples neighbours alone, edges no stiffer
+/// than 100 times the usual, without straight chains.
 ElementGraph vertex_graph(const TransformStep::Rest& rest, const TransformStep::EdgeQuadratics& quadratics,
                           const std::vector<Holds>& holds);
 

@@ -13,6 +13,8 @@ using Eigen::Matrix3d;
 // many.
 constexpr double kNearTransforms = 0.05, kNearVertices = 1e-2;
 constexpr int kMostIterations = 300;
+// What transforms do to normals hardly matters and converges slowly: left to the passes to come.
+constexpr int kMostForTransforms = 10;
 
 struct Quadratic {
   BlockSystem& system;
@@ -103,7 +105,7 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
     const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
     const Gradients done =
         vertices.multilevel->improve(times_matrix, right_hand_side, kNearVertices, kMostIterations, solution, poll);
-    if (!done.converged) {  // Never seen but on straight chains.
+    if (!done.converged) {  // As on straight chains, which it knows nothing of.
       vertices = vertex_system(rest, straight);
       return place_vertices(vertices, rest, quadratics, straight, straightness_weight, holds, start, poll);
     }
@@ -117,7 +119,7 @@ Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matri
   matrix.apply(transforms, left);
   left = right_hand_sides - left;
   const Eigen::VectorXd change = multilevel.solve(Eigen::Map<const Eigen::VectorXd>(left.data(), left.size()),
-                                                  kNearTransforms, kMostIterations, poll);
+                                                  kNearTransforms, kMostForTransforms, poll);
   return transforms + Eigen::Map<const Transforms>(change.data(), transforms.rows(), 9);
 }
 
