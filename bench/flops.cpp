@@ -94,7 +94,7 @@ Flops flops_of_transform() {
   const Mat3 m = mat3(vec3(1, 0.2, 0.3), vec3(0.4, 1, 0.5), vec3(0.6, 0.7, 1));
   const Vec3 edge = vec3(1, 2, 3), normal = vec3(0, 0, 1);
   const Flops per_triangle = flops_of([=] {
-    distance_from_identity(damped_inverse(m).matrix);
+    distance_from_identity(damped_inverse(with_mapped_normal(m, normal)).matrix);
     distance_from_normal(m, normal);
     TriangleTerms terms = no_edges(normal, 1, 1);
     for (int k = 0; k < 3; ++k) {

@@ -108,11 +108,23 @@ class CpuTransform final : public TransformStep {
     int singular = 0;
 #pragma omp parallel for schedule(static) reduction(+ : singular) if (transforms_.rows() > kWorthThreads)
     for (Eigen::Index t = 0; t < transforms_.rows(); ++t) {
-      const Inverse result = inverse(matrix(transforms_, t));
+      const Inverse result = inverse(inverted(t));
       inverses_.row(t) = row(result.matrix);
       singular += result.damped ? 1 : 0;
     }
     quadratics.singular = singular;
+  }
+
+  /// What the vertex step inverts of a triangle's transform.
+  Matrix3d inverted(Eigen::Index t) const {
+    const Matrix3d transform = matrix(transforms_, t);
+    if (!rest_.maps_normals) return transform;
+    const Vector3d normal = rest_.normals.row(t);
+    const Vector3d along = normal[0] * transform.col(1).cross(transform.col(2)) +
+                           normal[1] * transform.col(2).cross(transform.col(0)) +
+                           normal[2] * transform.col(0).cross(transform.col(1));
+    const Vector3d image = along / std::sqrt(std::max(along.norm(), 1e-12));
+    return transform + (image - transform * normal) * normal.transpose();
   }
 
   double target_length(Eigen::Index e) const {

@@ -35,14 +35,16 @@ INLINE void store_inverse(Mat3 m, global scalar* triangle_rows, int i) {
 }
 
 /// Triangles. Sums: damped, regularizer, that of the normal.
-kernel void invert(const int items, const int count, global const host_scalar* transforms, global scalar* triangle_rows,
-                   global scalar* sums) {
+kernel void invert(const int items, const int count, const int maps_normals, global const host_scalar* transforms,
+                   global scalar* triangle_rows, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const Mat3 transform = gather_host9(transforms, own_elements(i, count));
-  const Inverse inverse = damped_inverse(transform);
-  const real present = present_lanes(i, count);
   const Vec3 normal = gather_triangle(triangle_rows, own_elements(i, count)).normal;
+  Mat3 inverted = transform;
+  if (maps_normals) inverted = with_mapped_normal(transform, normal);
+  const Inverse inverse = damped_inverse(inverted);
+  const real present = present_lanes(i, count);
   store_sums(i, sums, present * inverse.damped, present * distance_from_identity(transform),
              present * distance_from_normal(transform, normal));
   store_inverse(inverse.matrix, triangle_rows, i);

@@ -64,7 +64,8 @@ class OpenClTransform final : public TransformStep {
     blocks_.lend(quadratics.blocks);
     sides_.lend(quadratics.right_hand_sides);
     targets_.lend(quadratics.target_lengths);
-    invert_.launch(triangles_.items(), triangles_.count, transforms_, triangle_rows_, inverse_sums_.of_items());
+    invert_.launch(triangles_.items(), triangles_.count, maps_normals_, transforms_, triangle_rows_,
+                   inverse_sums_.of_items());
     fit_edges_.launch(edges_.items(), edges_.count, per_length(constants_.normal_weight),
                       per_length(constants_.scale_weight), beside_, edge_rest_, weights(), transforms_, triangle_rows_,
                       blocks_, sides_, targets_, edge_sums_.of_items());
@@ -108,6 +109,7 @@ class OpenClTransform final : public TransformStep {
                    rest.regularizer_weight,
                    rest.normal_regularizer_weight,
                    rest.transform_sphericity_factor},
+        maps_normals_(rest.maps_normals ? 1 : 0),
         vertices_(rest.vertices.rows()),
         triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
         edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
@@ -218,6 +220,7 @@ class OpenClTransform final : public TransformStep {
 
   Queue queue_;
   Constants constants_;
+  int maps_normals_;
   Index vertices_;
   LaneItems triangles_, edges_, round_;
   Energy energy_;

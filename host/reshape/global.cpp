@@ -9,12 +9,11 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// What multigrid leaves of a pass's error. Tenfold less of either takes as many passes; twice as much, up to twice as
-// many.
-constexpr double kNearTransforms = 0.05, kNearVertices = 1e-2;
+// What multigrid leaves of a pass's error. Tenfold less of either takes as many passes; twice as much, more.
+constexpr double kNearTransforms = 0.1, kNearVertices = 1e-2;
 constexpr int kMostIterations = 300;
 // What transforms do to normals hardly matters and converges slowly: left to the passes to come.
-constexpr int kMostForTransforms = 10;
+constexpr int kMostForTransforms = 20;
 
 struct Quadratic {
   BlockSystem& system;

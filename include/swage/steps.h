@@ -46,6 +46,8 @@ class TransformStep {
     double normal_weight = 0, scale_weight = 0;  ///< Of the vertex step.
     double connect_weight = 0, transform_normal_weight = 0, regularizer_weight = 0;  ///< Of the transform step.
     double normal_regularizer_weight = 0;    ///< The same: of |T n - n|², which counts as part of the regularizer.
+    bool maps_normals = false;               ///< Whether what the vertex step inverts takes a triangle's normal to its
+                                             ///< image's, as long as the image's mean stretch, wherever T takes it.
     double transform_sphericity_factor = 1;  ///< Times the sphericity weight: of the transform step.
   };
 

@@ -122,6 +122,19 @@ static inline real distance_from_identity(Mat3 transform) {
   return inner3(change, change);
 }
 
+/// What a transform makes of the tangent plane, with the normal taken to that of the image, as long as the square root
+/// of how the area grows.
+static inline Mat3 with_mapped_normal(Mat3 transform, Vec3 normal) {
+  const Vec3 first = vec3(transform.x.x, transform.y.x, transform.z.x),
+             second = vec3(transform.x.y, transform.y.y, transform.z.y),
+             third = vec3(transform.x.z, transform.y.z, transform.z.z);
+  const Vec3 along = add3(add3(scale3(normal.x, cross3(second, third)), scale3(normal.y, cross3(third, first))),
+                          scale3(normal.z, cross3(first, second)));
+  const real area = larger_of(sqrt(dot3(along, along)), (real)1e-12);
+  const Vec3 change = sub3(scale3((real)1 / sqrt(area), along), apply3(transform, normal));
+  return add_mat3(transform, outer3(change, normal));
+}
+
 /// How far the normal's own image is from it, squared.
 static inline real distance_from_normal(Mat3 transform, Vec3 normal) {
   const Vec3 change = sub3(apply3(transform, normal), normal);

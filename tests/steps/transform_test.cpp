@@ -46,7 +46,8 @@ TEST(TransformStep, TargetLengthsAreThoseOfTheTransformedEdges) {
 }
 
 TEST(TransformStep, FlattenedTrianglesAreDampedCountedAndFinite) {
-  const TransformStep::Rest rest = rest_of(test::box({1, 1, 1}, 2));
+  TransformStep::Rest rest = rest_of(test::box({1, 1, 1}, 2));
+  rest.maps_normals = false;
   const auto step = cpu_backend()->transform(rest);
   for (const Eigen::Vector3d& scale : {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 0),
                                        Eigen::Vector3d(1, 1, 1e-12), Eigen::Vector3d(1e-200, 1, 1)}) {
@@ -57,12 +58,41 @@ TEST(TransformStep, FlattenedTrianglesAreDampedCountedAndFinite) {
   }
 }
 
+TEST(TransformStep, WithMappedNormalsATransformThatFlattensAlongItsNormalIsNotSingular) {
+  const TransformStep::Rest rest = rest_of(test::box({1, 1, 1}, 2));
+  TransformStep::EdgeQuadratics quadratics;
+  cpu_backend()->transform(rest)->fit_edges(
+      same(Eigen::Vector3d(1, 1, 0).asDiagonal().toDenseMatrix(), rest.triangles.rows()), quadratics);
+  EXPECT_EQ(quadratics.singular, rest.triangles.rows() * 2 / 3);  // But not the two sides normal to z.
+  EXPECT_TRUE(quadratics.blocks.allFinite() && quadratics.right_hand_sides.allFinite());
+}
+
 TEST(TransformStep, ASmallTransformIsNotASingularOne) {
   const TransformStep::Rest rest = rest_of(test::box({1, 1, 1}, 2));
   TransformStep::EdgeQuadratics quadratics;
   cpu_backend()->transform(rest)->fit_edges(same(1e-6 * Eigen::Matrix3d::Identity(), rest.triangles.rows()),
                                             quadratics);
   EXPECT_EQ(quadratics.singular, 0);
+}
+
+// Where a transform takes the normal says nothing of how the surface stretches.
+TEST(TransformStep, WithMappedNormalsTheirImagesDoNotMatter) {
+  TransformStep::Rest rest = rest_of(test::sphere(0.5, 2));
+  ASSERT_TRUE(rest.maps_normals);
+  Transforms skewed = same(2 * Eigen::Matrix3d::Identity(), rest.triangles.rows());
+  for (Eigen::Index t = 0; t < skewed.rows(); ++t) {
+    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> more = Eigen::Vector3d(0.3, -5, 1) * rest.normals.row(t);
+    skewed.row(t) += Eigen::Map<const Eigen::Matrix<double, 1, 9>>(more.data());
+  }
+  TransformStep::EdgeQuadratics plain, same_stretch;
+  const auto step = cpu_backend()->transform(rest);
+  step->fit_edges(same(2 * Eigen::Matrix3d::Identity(), rest.triangles.rows()), plain);
+  step->fit_edges(skewed, same_stretch);
+  EXPECT_LT((plain.blocks - same_stretch.blocks).norm(), 1e-12 * plain.blocks.norm());
+  EXPECT_LT((plain.right_hand_sides - same_stretch.right_hand_sides).norm(), 1e-12 * plain.right_hand_sides.norm());
+  rest.maps_normals = false;
+  cpu_backend()->transform(rest)->fit_edges(skewed, same_stretch);
+  EXPECT_GT((plain.blocks - same_stretch.blocks).norm(), 0.01 * plain.blocks.norm());
 }
 
 TEST(TransformStep, NoTrianglesGiveNothing) {
