@@ -95,11 +95,13 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
                          double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
                          const Poll& poll) {
   const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
+  ask(poll);
   Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(start.data(), start.size());
   if (vertices.system.has_factor()) {
     solution = vertices.system.solve_near(right_hand_side, solution);
   } else {
     const ElementGraph graph = vertex_graph(rest, quadratics, holds);
+    ask(poll);
     vertices.multilevel ? vertices.multilevel->refill(graph) : void(vertices.multilevel.emplace(graph, poll));
     const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
     const Gradients done =
@@ -117,6 +119,7 @@ Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matri
   Transforms left;
   matrix.apply(transforms, left);
   left = right_hand_sides - left;
+  ask(poll);
   const Eigen::VectorXd change = multilevel.solve(Eigen::Map<const Eigen::VectorXd>(left.data(), left.size()),
                                                   kNearTransforms, kMostForTransforms, poll);
   return transforms + Eigen::Map<const Transforms>(change.data(), transforms.rows(), 9);

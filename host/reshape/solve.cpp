@@ -23,9 +23,11 @@ Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
   return handles;
 }
 
-std::unique_ptr<Workspace> workspace(const ReshapePlan& plan) {
-  auto work = std::make_unique<Workspace>(
-      Workspace{plan.options.backend->transform(plan.rest), plan.vertices->unsolved(), {}, {}});
+std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll = {}) {
+  std::unique_ptr<TransformStep> step = plan.options.backend->transform(plan.rest);
+  ask(poll);
+  auto work = std::make_unique<Workspace>(Workspace{std::move(step), plan.vertices->unsolved(), {}, {}});
+  ask(poll);
   if (plan.multilevel) work->coupling = plan.options.backend->coupling(plan.rest);
   if (plan.options.refactor_every_pass) work->transforms = plan.transforms->unfactored();
   return work;
@@ -89,12 +91,14 @@ std::optional<FactorKind> vertex_factor_kind(const ReshapePlan& plan) {
 double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions, const Poll& poll) {
   const Stopwatch watch(iterate.seconds["vertex_step"]);
   iterate.work.step->fit_edges(iterate.transforms, iterate.quadratics);
+  ask(poll);
   iterate.singular = std::max(iterate.singular, iterate.quadratics.singular);
   iterate.before = positions;
   // The published passes solve exactly.
   if (plan.options.solver == ReshapeSolver::published) iterate.work.vertices.system.forget_factor();
   positions = place_vertices(iterate.work.vertices, plan.rest, iterate.quadratics, plan.straight,
                              plan.weights.straightness, {iterate.handles}, iterate.before, poll);
+  ask(poll);
   const TransformStep::Energy local = iterate.work.step->fit_transforms(positions, iterate.right_hand_sides);
   iterate.energy_by_term.push_back(energy_terms(local, positions, plan.straight, plan.weights, iterate.handles));
   return sum(iterate.energy_by_term.back());
@@ -186,7 +190,9 @@ ProgressFn after_preparation(const ProgressFn& progress) {
 
 void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
   if (plan.paths.transforms == LinearSolver::multigrid) {
-    plan.multilevel.emplace(transform_graph(plan.rest), poll);
+    const ElementGraph graph = transform_graph(plan.rest);
+    poll();
+    plan.multilevel.emplace(graph, poll);
     return;
   }
   BlockSystem transforms = transform_system(plan.rest, factor_kind(plan.options));
@@ -223,8 +229,9 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   begin("coarse", 0.8);
   plan.coarse = coarse_plan(plan, curvatures, poll, plan.paths.why_no_coarse_start);
   begin("workspace", 0.95);
-  const auto first = plan.workspaces.lend([&] { return workspace(plan); });  // For the first solve, as fast as any.
-  if (first->transforms) std::swap(*first->transforms, *plan.transforms);    // It has analysed its pattern.
+  const auto first =
+      plan.workspaces.lend([&] { return workspace(plan, poll); });         // For the first solve, as fast as any.
+  if (first->transforms) std::swap(*first->transforms, *plan.transforms);  // It has analysed its pattern.
   plan.prepared = true;
 }
 

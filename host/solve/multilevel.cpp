@@ -547,7 +547,7 @@ Eigen::VectorXd solution_by(Cycles<kRows> cycles, const Levels& levels, const Ei
   VectorXf solution = VectorXf::Zero(right_hand_side.size());
   conjugate_gradients([&](const VectorXf& x, VectorXf& image) { levels.front()->multiply<kRows>(x, image); },
                       [&](const VectorXf& residual, VectorXf& error) {
-                        if (poll) poll();
+                        ask(poll);
                         cycles.cycle(0, residual, error);
                       },
                       VectorXf(right_hand_side.cast<float>()), tolerance, limit, solution);
@@ -562,7 +562,7 @@ Gradients improve_by(Cycles<kRows> cycles, const Multilevel::TimesMatrix& times_
   return conjugate_gradients(
       times_matrix,
       [&](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
-        if (poll) poll();
+        ask(poll);
         right = residual.cast<float>();
         cycles.cycle(0, right, left);
         error = left.cast<double>();
@@ -605,23 +605,22 @@ std::vector<std::pair<int, int>> couplings_apart(const ElementGraph& graph) {
 }  // namespace
 
 Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) {
-  const auto ask = [&] {
-    if (poll) poll();
-  };
   ElementGraph coarse, next;
   const ElementGraph* now = &graph;
   Couplings couplings = couplings_of(graph);
   while (now->own.rows() > kCoarsest) {
-    ask();
+    ask(poll);
     auto level = std::make_unique<Level>(*now, couplings);
+    ask(poll);
     level->fill(*now);
     std::vector<int> into(static_cast<size_t>(level->count));
     std::iota(into.begin(), into.end(), 0);
     ElementGraph merging{now->rows, {}, {}, now->own};
     for (int round = 0; round < kRounds; ++round) {
-      ask();
+      ask(poll);
       const Merge merge = pairing(couplings);
       merging = merged(couplings, merging.own, now->rows, merge);
+      ask(poll);
       for (int& element : into) element = merge.into[static_cast<size_t>(element)];
       couplings = couplings_of(merging);
     }
