@@ -18,6 +18,24 @@ Curvatures mean_curvatures(const Proxy& proxy, const Curvatures& fine) {
   return counts.cwiseMax(1).cwiseInverse().asDiagonal() * means;
 }
 
+/// Handed from few triangles to many, transforms jump where the stand-in's triangles meet: passes would take that for
+/// shape, and be long in undoing it.
+Transforms smoothed(Transforms transforms, const Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>& pairs) {
+  constexpr int kRounds = 10;
+  for (int round = 0; round < kRounds; ++round) {
+    Transforms sums = transforms;
+    Eigen::VectorXd counts = Eigen::VectorXd::Ones(sums.rows());
+    for (const auto& pair : pairs.rowwise()) {
+      sums.row(pair[0]) += transforms.row(pair[1]);
+      sums.row(pair[1]) += transforms.row(pair[0]);
+      counts[pair[0]] += 1;
+      counts[pair[1]] += 1;
+    }
+    transforms = counts.cwiseInverse().asDiagonal() * sums;
+  }
+  return transforms;
+}
+
 /// Each handle moves the vertex it was collapsed into; where those are one, by the mean.
 Gesture coarse_gesture(const Proxy& proxy, const Positions& rest, const Gesture& gesture) {
   std::map<int, std::pair<Eigen::Vector3d, int>> sums;
@@ -48,7 +66,7 @@ std::unique_ptr<CoarsePlan> coarse_plan(const ReshapePlan& plan, const Curvature
   constexpr int kWorthwhile = 40'000;  // Below, the passes it saves take as long.
   const Eigen::Index count = plan.mesh.triangles.rows();
   if (!plan.options.coarse_start || plan.options.solver == ReshapeSolver::published) {
-    why_none = "as asked";
+    why_none = "no coarse start asked for";
   } else if (count < kWorthwhile) {
     why_none = std::to_string(count) + " triangles";
   }
@@ -84,7 +102,7 @@ std::optional<Transforms> coarse_transforms(const CoarsePlan& coarse, const Resh
   try {
     const ReshapeResult result = coarse.reshape->solve(handles, told);
     if (result.report.stop == Termination::cancelled) return std::nullopt;
-    return result.transforms(coarse.proxy.triangle_of, Eigen::all);
+    return smoothed(result.transforms(coarse.proxy.triangle_of, Eigen::all), plan.rest.pairs);
   } catch (const Unsolvable&) {
     return identities(plan.mesh.triangles.rows());
   }

@@ -73,7 +73,8 @@ struct ReshapeOptions {
   LinearSolver linear_solver = LinearSolver::automatic;
   std::size_t factor_memory = 0;     ///< Bytes that automatic lets factors take; 0 for a quarter of the
                                      ///< machine's memory, whoever else uses it, at most 4 GiB.
-  bool coarse_start = true;          ///< Steady, from 40,000 triangles on: first solve a coarse stand-in.
+  bool coarse_start = false;         ///< Steady, from 40,000 triangles on: first solve a coarse stand-in.
+                                     ///< Fewer passes on models of many parts, more on smooth ones.
   bool finalise = true;              ///< Spread dimples at handles (appendix A).
   bool refactor_every_pass = false;  ///< As published: the same result, slower. For comparison.
   std::shared_ptr<Backend> backend;  ///< Does the local steps; cpu_backend() where none is given.
