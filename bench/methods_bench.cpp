@@ -38,13 +38,14 @@ struct Parts {
   std::vector<StraightTriple> straight;
   Holds handles;
 
-  explicit Parts(const Model& model)
+  /// Vertices by multigrid where `kind` is none.
+  explicit Parts(const Model& model, std::optional<FactorKind> kind = {})
       : edges(edges_of(model.mesh.triangles)),
         rest(rest_shape(
             model.options, unit(model), edges,
             model.options.unit_box_curvatures.value_or(curvature(unit(model).positions, model.mesh.triangles)))),
         step(cpu_backend()->transform(rest)),
-        vertices(vertex_system(rest, {})),
+        vertices(vertex_system(rest, {}, kind)),
         transforms(transform_system(rest)),
         handles{{0, 1}, rest.vertices.topRows(2), step_weights(model.options, unit(model)).handle} {}
 
@@ -53,8 +54,7 @@ struct Parts {
   }
 };
 
-void vertex_step(benchmark::State& state, const Model& model) {
-  Parts parts(model);
+void vertex_step_of(benchmark::State& state, Parts parts) {
   TransformStep::EdgeQuadratics quadratics;
   const Transforms transforms = identities(parts.rest.triangles.rows());
   for (auto _ : state) {
@@ -64,6 +64,12 @@ void vertex_step(benchmark::State& state, const Model& model) {
   }
   state.counters["unknowns"] = static_cast<double>(parts.vertices.system.unknowns());
   state.counters["factor_entries"] = static_cast<double>(parts.vertices.system.factor_entries());
+}
+
+void vertex_step_factored(benchmark::State& state, const Model& model) { vertex_step_of(state, Parts(model)); }
+
+void vertex_step_multigrid(benchmark::State& state, const Model& model) {
+  vertex_step_of(state, Parts(model, FactorKind::none));
 }
 
 void transform_step(benchmark::State& state, const Model& model) {
@@ -254,7 +260,8 @@ void register_all() {
       })->Unit(benchmark::kMillisecond);
     };
     add("prepare", prepare);
-    add("vertex_step", vertex_step);
+    add("vertex_step_factored", vertex_step_factored);
+    add("vertex_step_multigrid", vertex_step_multigrid);
     add("transform_factor", transform_factor);
     add("transform_step", transform_step);
     for (const Gesture& gesture : model.gestures) {

@@ -193,15 +193,14 @@ class CpuTransform final : public TransformStep {
     sum.similarity = add_up(rest_.pairs.rows(), [&](Eigen::Index p) {
       return rest_.pair_similarities[p] * pair_term(p, rest_.pair_opposites.row(p));
     });
-    sum.regularizer = add_up(rest_.triangles.rows(), [&](Eigen::Index t) { return regularizer_term(t); });
+    sum.regularizer = rest_.regularizer_weight * add_up(rest_.triangles.rows(), [&](Eigen::Index t) {
+                        return (matrix(transforms_, t) - Matrix3d::Identity()).squaredNorm();
+                      });
+    sum.regularizer += rest_.normal_regularizer_weight * add_up(rest_.triangles.rows(), [&](Eigen::Index t) {
+                         const Vector3d normal = rest_.normals.row(t);
+                         return (matrix(transforms_, t) * normal - normal).squaredNorm();
+                       });
     return sum;
-  }
-
-  /// Eq. 28, and the same of the normal alone.
-  double regularizer_term(Eigen::Index t) const {
-    const Matrix3d change = matrix(transforms_, t) - Matrix3d::Identity();
-    return rest_.regularizer_weight * change.squaredNorm() +
-           rest_.normal_regularizer_weight * (change * rest_.normals.row(t).transpose()).squaredNorm();
   }
 
   /// Eq. 20.

@@ -35,11 +35,11 @@ ElementGraph transform_graph(const TransformStep::Rest& rest) {
   graph.rows = 3;
   graph.couplings.resize(rest.pairs.rows(), 6);
   graph.pairs.reserve(static_cast<size_t>(rest.pairs.rows()));
-  for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) {
-    graph.pairs.emplace_back(rest.pairs(p, 0), rest.pairs(p, 1));
-    graph.couplings.row(p) = packed(pair_block(rest, p));
-  }
+  for (const auto& pair : rest.pairs.rowwise()) graph.pairs.emplace_back(pair[0], pair[1]);
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) graph.couplings.row(p) = packed(pair_block(rest, p));
   graph.own.resize(rest.triangles.rows(), 45);
+#pragma omp parallel for schedule(static)
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
     const Eigen::Matrix<double, 9, 9> block = triangle_block(rest, t);
     for (int i = 0, k = 0; i < 9; ++i) {

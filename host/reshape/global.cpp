@@ -3,6 +3,7 @@
 #include "element_graphs.h"
 #include "plan.h"
 #include "sphericity.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -120,8 +121,13 @@ Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matri
   matrix.apply(transforms, left);
   left = right_hand_sides - left;
   ask(poll);
-  const Eigen::VectorXd change = multilevel.solve(Eigen::Map<const Eigen::VectorXd>(left.data(), left.size()),
-                                                  kNearTransforms, kMostForTransforms, poll);
+  Eigen::VectorXd change;
+  const Gradients done = multilevel.solve(Eigen::Map<const Eigen::VectorXd>(left.data(), left.size()), kNearTransforms,
+                                          kMostForTransforms, change, poll);
+  if (!done.converged && done.iterations == 0) {  // Or passes would end where transforms no longer follow.
+    throw Unsolvable(
+        "transform step: multigrid could not bring the transforms nearer; solve with linear_solver = factor");
+  }
   return transforms + Eigen::Map<const Transforms>(change.data(), transforms.rows(), 9);
 }
 

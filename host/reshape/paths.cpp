@@ -15,13 +15,6 @@ constexpr double kBytesAnEntry = 12;            // In double while it is made, a
 constexpr double kMostBytes = 4.0 * (1 << 30);  // Beyond, multigrid is faster, even where the factor is made already.
 constexpr Eigen::Index kFewVertices = 1500;     // Factored as fast.
 
-/// By nested dissection the transform step's factor has c n log2 n entries; c was 130 to 160 on models of 20,000 to
-/// 340,000 triangles.
-double factor_bytes(Eigen::Index triangle_count) {
-  const auto n = static_cast<double>(std::max<Eigen::Index>(triangle_count, 2));
-  return kBytesAnEntry * 150 * n * std::log2(n);
-}
-
 /// Of the machine, or of the control group where that has less. Not what is free now: results must not depend on it.
 double memory() {
   double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -38,6 +31,13 @@ std::string gigabytes(double bytes) {
 }
 
 }  // namespace
+
+/// By nested dissection the transform step's factor has c n log2 n entries; c was 130 to 160 on models of 20,000 to
+/// 340,000 triangles.
+double factor_bytes(Eigen::Index triangle_count) {
+  const auto n = static_cast<double>(std::max<Eigen::Index>(triangle_count, 2));
+  return kBytesAnEntry * 150 * n * std::log2(n);
+}
 
 const char* to_string(LinearSolver solver) {
   switch (solver) {

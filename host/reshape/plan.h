@@ -111,12 +111,26 @@ struct Iterate {
   std::map<std::string, double> seconds = {};
 };
 
+/// Of a whole call's progress, what preparation is.
+constexpr double kPrepared = 0.2;
+
+// plan.cpp
+/// Once. False where `progress` cancelled: another call begins anew.
+bool prepare(ReshapePlan& plan, const ProgressFn& progress);
+/// For a solve of a prepared plan.
+std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll = {});
+
+// tell.cpp
+void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report);
+
 // check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);
 void check_surface(const Mesh& mesh, const Edges& edges);
 void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh);
 
 // paths.cpp
+/// What the transform step's factor is expected to take while it is made, bytes.
+double factor_bytes(Eigen::Index triangle_count);
 Paths choose_paths(const ReshapeOptions& options, Eigen::Index vertex_count, Eigen::Index triangle_count,
                    bool has_straight_chains);
 
@@ -135,7 +149,7 @@ Eigen::Matrix<double, 9, 9> triangle_block(const TransformStep::Rest& rest, Eige
 Eigen::Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p);
 /// To be factored by `kind`, or by whatever is faster.
 VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
-                           std::optional<FactorKind> kind = {});
+                           std::optional<FactorKind> kind = {}, const Poll& poll = {});
 BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind = {});
 
 // global.cpp

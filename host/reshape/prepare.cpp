@@ -159,14 +159,16 @@ Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p) {
 }
 
 VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
-                           std::optional<FactorKind> kind) {
+                           std::optional<FactorKind> kind, const Poll& poll) {
   std::vector<std::pair<int, int>> couplings;
   for (const auto& edge : rest.edges.rowwise()) couplings.emplace_back(edge[0], edge[1]);
   for (const StraightTriple& triple : straight) {
     if (triple.before != triple.after) couplings.emplace_back(triple.before, triple.after);
   }
   VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings, kind), {}, {}};
+  ask(poll);
   vertices.edges = std::make_shared<const BlockSystem::Stars>(vertices.system.stars(rest.edges));
+  ask(poll);
   vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
   return vertices;
 }

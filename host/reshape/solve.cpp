@@ -1,17 +1,12 @@
-#include <numeric>
-#include <string>
-
 #include "alternate.h"
 #include "anderson.h"
 #include "coarse.h"
-#include "element_graphs.h"
 #include "plan.h"
 
 namespace swage {
 namespace {
 
-constexpr double kPrepared = 0.2;  // Of a whole call's progress.
-constexpr int kPlainPasses = 2;    // Far from the fixed point, and unlike those after: nothing to learn from.
+constexpr int kPlainPasses = 2;  // Far from the fixed point, and unlike those after: nothing to learn from.
 
 Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
   Holds handles{{}, Positions(static_cast<Eigen::Index>(gesture.targets.size()), 3), weight};
@@ -21,16 +16,6 @@ Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
     handles.vertices.push_back(vertex);
   }
   return handles;
-}
-
-std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll = {}) {
-  std::unique_ptr<TransformStep> step = plan.options.backend->transform(plan.rest);
-  ask(poll);
-  auto work = std::make_unique<Workspace>(Workspace{std::move(step), plan.vertices->unsolved(), {}, {}});
-  ask(poll);
-  if (plan.multilevel) work->coupling = plan.options.backend->coupling(plan.rest);
-  if (plan.options.refactor_every_pass) work->transforms = plan.transforms->unfactored();
-  return work;
 }
 
 /// Where passes start, in the unit box.
@@ -77,17 +62,6 @@ StopRule stop_rule(const ReshapePlan& plan, bool warm) {
   return stop;
 }
 
-/// The published passes are never others, whatever a build has.
-std::optional<FactorKind> factor_kind(const ReshapeOptions& options) {
-  if (options.solver == ReshapeSolver::published) return FactorKind::simplicial;
-  return std::nullopt;
-}
-
-std::optional<FactorKind> vertex_factor_kind(const ReshapePlan& plan) {
-  if (plan.paths.vertices == LinearSolver::multigrid) return FactorKind::none;
-  return factor_kind(plan.options);
-}
-
 double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions, const Poll& poll) {
   const Stopwatch watch(iterate.seconds["vertex_step"]);
   iterate.work.step->fit_edges(iterate.transforms, iterate.quadratics);
@@ -105,10 +79,11 @@ double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions, co
 }
 
 /// The right-hand sides are those of the positions last placed; of a start combined from several they are made anew.
-Positions next_start(Iterate& iterate, const Positions& start, const Positions& end) {
+Positions next_start(Iterate& iterate, const Positions& start, const Positions& end, const Poll& poll) {
   const Stopwatch watch(iterate.seconds["acceleration"]);
   if (iterate.energy_by_term.size() < kPlainPasses) return end;
   Positions next = iterate.acceleration.next(start, end);
+  ask(poll);
   iterate.work.step->fit_transforms(next, iterate.right_hand_sides);
   return next;
 }
@@ -127,123 +102,12 @@ void fit(const ReshapePlan& plan, Iterate& iterate, const Poll& poll) {
                                        : solve_transforms(system, iterate.right_hand_sides);
 }
 
-template <typename Matrix>
-std::size_t bytes(const Matrix& matrix) {
-  return static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar);
-}
-
-std::size_t bytes(const TransformStep::Rest& rest) {
-  return bytes(rest.triangles) + bytes(rest.edges) + bytes(rest.triangle_edges) + bytes(rest.pairs) +
-         bytes(rest.pair_edges) + bytes(rest.edge_vectors) + bytes(rest.normals) + bytes(rest.pair_opposites) +
-         bytes(rest.pair_similarities) + bytes(rest.sphericities) + bytes(rest.vertices);
-}
-
-/// Without the backend's.
-std::map<std::string, std::size_t> bytes_by_part(const ReshapePlan& plan, const Iterate& iterate) {
-  const Workspace& work = iterate.work;
-  std::map<std::string, std::size_t> parts;
-  parts["rest_shape"] = bytes(plan.rest);
-  parts["transform_system"] = plan.transforms ? plan.transforms->bytes() : plan.multilevel->bytes();
-  if (work.transforms) parts["transform_system"] += work.transforms->bytes();
-  parts["vertex_system"] = plan.vertices->system.bytes() + work.vertices.bytes();
-  parts["iterate"] = bytes(iterate.transforms) + bytes(iterate.right_hand_sides) + bytes(iterate.quadratics.blocks) +
-                     bytes(iterate.quadratics.right_hand_sides) + bytes(iterate.quadratics.target_lengths);
-  parts["acceleration"] = iterate.acceleration.bytes();
-  if (plan.coarse) parts["coarse_start"] = plan.coarse->bytes();
-  return parts;
-}
-
-std::map<std::string, std::string> paths(const ReshapePlan& plan, bool warm) {
-  const auto path = [](LinearSolver solver, const std::string& why) {
-    return std::string(to_string(solver)) + ": " + why;
-  };
-  std::string start = plan.coarse
-                          ? "coarse: of " + std::to_string(plan.coarse->proxy.mesh.triangles.rows()) + " triangles"
-                          : "rest: " + plan.paths.why_no_coarse_start;
-  if (warm) start = "result: as given";
-  return {{"vertex_step", path(plan.paths.vertices, plan.paths.why_vertices)},
-          {"transform_step", path(plan.paths.transforms, plan.paths.why_transforms)},
-          {"start", start}};
-}
-
-void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report) {
-  if (report.passes > 0) report.energy_by_term = iterate.energy_by_term[static_cast<size_t>(report.best_pass)];
-  report.bytes = bytes_by_part(plan, iterate);
-  report.paths = paths(plan, warm);
-  report.seconds = iterate.seconds;
-  report.seconds["precompute"] = plan.prepare_seconds;
-  report.seconds["solve"] = std::accumulate(iterate.seconds.begin(), iterate.seconds.end(), 0.0,
-                                            [](double sum, const auto& stage) { return sum + stage.second; });
-  if (iterate.singular > 0) {
-    report.warnings.push_back("in a pass " + std::to_string(iterate.singular) +
-                              " triangles were flattened: their transforms were inverted with damping");
-  }
-}
-
 ProgressFn after_preparation(const ProgressFn& progress) {
   if (!progress) return progress;
   return [&progress](Progress p) {
     p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
     return progress(p);
   };
-}
-
-void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
-  if (plan.paths.transforms == LinearSolver::multigrid) {
-    const ElementGraph graph = transform_graph(plan.rest);
-    poll();
-    plan.multilevel.emplace(graph, poll);
-    return;
-  }
-  BlockSystem transforms = transform_system(plan.rest, factor_kind(plan.options));
-  poll();
-  transforms.factor();
-  if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
-  plan.transforms = std::move(transforms);
-}
-
-void make(ReshapePlan& plan, const ProgressFn& progress) {
-  Progress now{"", 0, plan.options.pass_limit, 0, 0};
-  const auto asked = [&] { return !progress || progress(now); };
-  const auto begin = [&](const char* stage, double part) {
-    now.stage = stage;
-    now.fraction = part * kPrepared;
-    if (!asked()) throw Cancelled();
-  };
-  const Poll poll = sparing(asked);
-  const Stopwatch watch(plan.prepare_seconds);
-  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
-  begin("curvature", 0);
-  const Curvatures curvatures = plan.options.unit_box_curvatures
-                                    ? *plan.options.unit_box_curvatures
-                                    : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
-  poll();
-  plan.weights = step_weights(plan.options, unit_mesh);
-  plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
-  plan.paths =
-      choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.straight.empty());
-  begin("order", 0.2);
-  plan.vertices = vertex_system(plan.rest, plan.straight, vertex_factor_kind(plan));
-  begin("factor", 0.4);
-  factor_or_coarsen(plan, poll);
-  begin("coarse", 0.8);
-  plan.coarse = coarse_plan(plan, curvatures, poll, plan.paths.why_no_coarse_start);
-  begin("workspace", 0.95);
-  const auto first =
-      plan.workspaces.lend([&] { return workspace(plan, poll); });         // For the first solve, as fast as any.
-  if (first->transforms) std::swap(*first->transforms, *plan.transforms);  // It has analysed its pattern.
-  plan.prepared = true;
-}
-
-bool prepare(ReshapePlan& plan, const ProgressFn& progress) {
-  const std::lock_guard lock(plan.preparing);
-  if (plan.prepared) return true;
-  try {
-    make(plan, progress);
-    return true;
-  } catch (const Cancelled&) {
-    return false;
-  }
 }
 
 void finish(const ReshapePlan& plan, const Iterate& iterate, const ProgressFn& progress, Positions& positions,
@@ -286,7 +150,9 @@ ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const Reshape
   Alternation steps{[&](Positions& placed, const Poll& poll) { return place(plan, iterate, placed, poll); },
                     [&](const Positions&, const Poll& poll) { fit(plan, iterate, poll); }};
   if (plan.options.solver == ReshapeSolver::steady) {
-    steps.next = [&](const Positions& before, const Positions& end) { return next_start(iterate, before, end); };
+    steps.next = [&](const Positions& before, const Positions& end, const Poll& poll) {
+      return next_start(iterate, before, end, poll);
+    };
   }
   result.report = alternate(stop_rule(plan, start.warm), solving, positions, steps);
   result.unfinished = plan.box.back(positions);

@@ -57,7 +57,7 @@ Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& po
         report.stop = *end;
         break;
       }
-      start = steps.next ? steps.next(start, positions) : positions;
+      start = steps.next ? steps.next(start, positions, poll) : positions;
       steps.fit(start, poll);
     }
   } catch (const Cancelled&) {

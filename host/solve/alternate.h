@@ -15,7 +15,7 @@ struct Alternation {
   /// The local step: fits everything else to the positions.
   std::function<void(const Positions&, const Poll&)> fit;
   /// Where the next pass starts, after one that led from the first positions to the second; else where that ended.
-  std::function<Positions(const Positions&, const Positions&)> next = {};
+  std::function<Positions(const Positions&, const Positions&, const Poll&)> next = {};
 };
 
 /// Alternates from `positions` and leaves the best in them. Tests of StopRule are made between place and fit. A pass's

@@ -17,8 +17,8 @@ struct Progress {
   double energy = 0;    ///< After the last pass; 0 before the first.
 };
 
-/// Called between stages and passes, from the calling thread. Returning false cancels: the call ends with the last
-/// complete iterate.
+/// Called between stages and passes, and every few tenths of a second within long ones, from the calling thread.
+/// Returning false cancels: the call ends with the last complete iterate.
 using ProgressFn = std::function<bool(const Progress&)>;
 
 /// Why a solve ended. The positions returned are the last complete pass's, but for `energy_rose` the one's before.

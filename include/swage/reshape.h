@@ -71,7 +71,7 @@ struct ReshapeOptions {
                                                   ///< pass would move a vertex.
   int acceleration_window = 5;                    ///< Steady: passes that the next start is made of; 0 for plain ones.
   LinearSolver linear_solver = LinearSolver::automatic;
-  std::size_t factor_memory = 0;     ///< Bytes that automatic lets factors take; 0 for a quarter of the
+  std::size_t factor_memory = 0;     ///< Bytes that automatic lets the transforms' factor take; 0 for a quarter of the
                                      ///< machine's memory, whoever else uses it, at most 4 GiB.
   bool coarse_start = false;         ///< Steady, from 40,000 triangles on: first solve a coarse stand-in.
                                      ///< Fewer passes on models of many parts, more on smooth ones.

@@ -143,7 +143,7 @@ TEST(Alternate, PassesThatWatchMovementAloneLetTheEnergyRise) {
 /// Passes that start ten further than the last one ended.
 Alternation leaping(Script& script, std::vector<double>& fitted) {
   Alternation steps = script.steps();
-  steps.next = [](const Positions&, const Positions& end) { return Positions(end.array() + 10); };
+  steps.next = [](const Positions&, const Positions& end, const Poll&) { return Positions(end.array() + 10); };
   steps.fit = [&](const Positions& start, const Poll&) { fitted.push_back(start(0, 0)); };
   return steps;
 }

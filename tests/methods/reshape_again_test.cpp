@@ -17,20 +17,9 @@
 namespace swage {
 namespace {
 
-/// The lowest vertex held, the highest moved.
-Gesture move_top(const Mesh& mesh, const Eigen::Vector3d& by) {
-  Eigen::Index low = 0, high = 0;
-  mesh.positions.col(1).minCoeff(&low);
-  mesh.positions.col(1).maxCoeff(&high);
-  Gesture gesture;
-  gesture.add(static_cast<int>(low), mesh.positions.row(low));
-  gesture.add(static_cast<int>(high), mesh.positions.row(high).transpose() + by);
-  return gesture;
-}
-
 std::vector<Gesture> gestures(const Mesh& mesh) {
   std::vector<Gesture> all;
-  for (int g = 0; g < 8; ++g) all.push_back(move_top(mesh, {0.05 * g, 0.4 - 0.1 * g, 0.02 * g * g}));
+  for (int g = 0; g < 8; ++g) all.push_back(test::move_top(mesh, {0.05 * g, 0.4 - 0.1 * g, 0.02 * g * g}));
   return all;
 }
 
@@ -94,7 +83,7 @@ TEST(ReshapeAtOnce, GivesTheSameBytesOnALargerMesh) {
 
 TEST(ReshapeAtOnce, TheFirstPreparesAndACancelledOneLeavesItToTheNext) {
   const Mesh mesh = test::cylinder(0.5, 1, 24, 8);
-  const Gesture gesture = move_top(mesh, {0, 0.3, 0});
+  const Gesture gesture = test::move_top(mesh, {0, 0.3, 0});
   const Positions expected = reshape(mesh.positions, mesh.triangles, gesture).positions;
   Reshape prepared(mesh.positions, mesh.triangles);
   std::vector<Positions> results(4);
@@ -107,13 +96,13 @@ TEST(ReshapeAtOnce, TheFirstPreparesAndACancelledOneLeavesItToTheNext) {
 
 TEST(ReshapeAtOnce, AFailedSolveLeavesNothingBehind) {
   const Mesh mesh = test::cylinder(0.5, 1, 24, 8);
-  const Gesture gesture = move_top(mesh, {0, 0.3, 0});
+  const Gesture gesture = test::move_top(mesh, {0, 0.3, 0});
   Reshape prepared(mesh.positions, mesh.triangles);
   const Positions expected = prepared.solve(gesture).positions;
   const auto fails = [](const Progress& progress) {
     return progress.pass < 3 ? true : throw std::runtime_error("the caller's");
   };
-  EXPECT_THROW(prepared.solve(move_top(mesh, {0.3, 0, 0}), fails), std::runtime_error);
+  EXPECT_THROW(prepared.solve(test::move_top(mesh, {0.3, 0, 0}), fails), std::runtime_error);
   EXPECT_EQ(prepared.solve(gesture).positions, expected);
 }
 
@@ -126,7 +115,7 @@ struct Drag {
 Drag dragged(Reshape& reshape, const Mesh& mesh, const Eigen::Vector3d& by, bool warm) {
   Drag drag;
   for (int step = 1; step <= 10; ++step) {
-    const Gesture gesture = move_top(mesh, by * step / 10);
+    const Gesture gesture = test::move_top(mesh, by * step / 10);
     drag.last = warm && step > 1 ? reshape.solve(gesture, drag.last) : reshape.solve(gesture);
     drag.passes += drag.last.report.passes;
   }
@@ -153,7 +142,7 @@ TEST(ReshapeFromAResult, ADragEndsWhereTheGestureDoesInFewerPasses) {
 
 TEST(ReshapeFromAResult, StaysWhereItIs) {
   const Mesh mesh = test::cylinder(0.5, 1, 24, 8);
-  const Gesture gesture = move_top(mesh, {0.1, 0.4, 0});
+  const Gesture gesture = test::move_top(mesh, {0.1, 0.4, 0});
   Reshape prepared(mesh.positions, mesh.triangles);
   const ReshapeResult result = prepared.solve(gesture), again = prepared.solve(gesture, result);
   EXPECT_EQ(again.report.passes, 2);  // The stop's tests need as many.
@@ -164,12 +153,12 @@ TEST(ReshapeFromAResult, StaysWhereItIs) {
 
 TEST(ReshapeFromAResult, TransformsMapRestEdgesToEditedOnes) {
   const Mesh mesh = test::cylinder(0.5, 1, 24, 8);
-  const ReshapeResult still = reshape(mesh.positions, mesh.triangles, move_top(mesh, {0, 0, 0}));
+  const ReshapeResult still = reshape(mesh.positions, mesh.triangles, test::move_top(mesh, {0, 0, 0}));
   Transforms identities = Transforms::Zero(mesh.triangles.rows(), 9);
   for (const int diagonal : {0, 4, 8}) identities.col(diagonal).setOnes();
   ASSERT_EQ(still.transforms.rows(), mesh.triangles.rows());
   EXPECT_LT((still.transforms - identities).cwiseAbs().maxCoeff(), 1e-9);
-  const ReshapeResult longer = reshape(mesh.positions, mesh.triangles, move_top(mesh, {0, 0.5, 0}));
+  const ReshapeResult longer = reshape(mesh.positions, mesh.triangles, test::move_top(mesh, {0, 0.5, 0}));
   double misses = 0, lengths = 0;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> transform(longer.transforms.row(t).data());
@@ -185,10 +174,10 @@ TEST(ReshapeFromAResult, TransformsMapRestEdgesToEditedOnes) {
 TEST(ReshapeFromAResult, ACancelledSolveStaysAtTheStart) {
   const Mesh mesh = test::cylinder(0.5, 1, 24, 8);
   Reshape prepared(mesh.positions, mesh.triangles), unprepared(mesh.positions, mesh.triangles);
-  const ReshapeResult start = prepared.solve(move_top(mesh, {0.1, 0.4, 0}));
+  const ReshapeResult start = prepared.solve(test::move_top(mesh, {0.1, 0.4, 0}));
   for (Reshape* const reshape : {&prepared, &unprepared}) {
     const ReshapeResult cancelled =
-        reshape->solve(move_top(mesh, {0.2, 0.4, 0}), start, [](const Progress&) { return false; });
+        reshape->solve(test::move_top(mesh, {0.2, 0.4, 0}), start, [](const Progress&) { return false; });
     EXPECT_EQ(cancelled.report.stop, Termination::cancelled);
     EXPECT_LT(apart(cancelled, start, mesh), 1e-12);
     EXPECT_EQ(cancelled.transforms, start.transforms);
@@ -206,7 +195,7 @@ std::string refusal(Reshape& reshape, const Gesture& gesture, const ReshapeResul
 
 TEST(ReshapeFromAResult, RefusesOneOfAnotherMeshOrSolver) {
   const Mesh mesh = test::box({1, 1, 1}, 3);
-  const Gesture gesture = move_top(mesh, {0, 0.2, 0});
+  const Gesture gesture = test::move_top(mesh, {0, 0.2, 0});
   Reshape prepared(mesh.positions, mesh.triangles);
   const ReshapeResult good = prepared.solve(gesture);
   EXPECT_EQ(refusal(prepared, gesture, good), "accepted");

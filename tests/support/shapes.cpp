@@ -177,4 +177,14 @@ Mesh transformed(const Mesh& mesh, double scale, const Eigen::Vector3d& translat
   return {(scale * mesh.positions).rowwise() + translation.transpose(), mesh.triangles};
 }
 
+Gesture move_top(const Mesh& mesh, const Eigen::Vector3d& by) {
+  Eigen::Index low = 0, high = 0;
+  mesh.positions.col(1).minCoeff(&low);
+  mesh.positions.col(1).maxCoeff(&high);
+  Gesture gesture;
+  gesture.add(static_cast<int>(low), mesh.positions.row(low));
+  gesture.add(static_cast<int>(high), mesh.positions.row(high).transpose() + by);
+  return gesture;
+}
+
 }  // namespace swage::test

@@ -1,6 +1,7 @@
 // The shapes that tests run on, generated.
 #pragma once
 
+#include "swage/handles.h"
 #include "swage/mesh.h"
 
 namespace swage::test {
@@ -19,6 +20,9 @@ Mesh sheet(int cells = 8);
 /// Each triangle in four, at the middles of its sides. Old vertices come first; the children of triangle t are 4 t to
 /// 4 t + 3, the middle one last.
 Mesh subdivided(const Mesh& mesh);
+
+/// Holds the lowest vertex and moves the highest.
+Gesture move_top(const Mesh& mesh, const Eigen::Vector3d& by);
 
 /// All triangles of both, b's vertices after a's.
 Mesh joined(const Mesh& a, const Mesh& b);

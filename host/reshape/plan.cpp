@@ -1,0 +1,91 @@
+// Preparing a plan: all that depends on the rest shape alone.
+#include "plan.h"
+
+#include "coarse.h"
+#include "element_graphs.h"
+
+namespace swage {
+namespace {
+
+/// The published passes are never others, whatever a build has.
+std::optional<FactorKind> factor_kind(const ReshapeOptions& options) {
+  if (options.solver == ReshapeSolver::published) return FactorKind::simplicial;
+  return std::nullopt;
+}
+
+std::optional<FactorKind> vertex_factor_kind(const ReshapePlan& plan) {
+  if (plan.paths.vertices == LinearSolver::multigrid) return FactorKind::none;
+  return factor_kind(plan.options);
+}
+
+void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
+  if (plan.paths.transforms == LinearSolver::multigrid) {
+    const ElementGraph graph = transform_graph(plan.rest);
+    poll();
+    plan.multilevel.emplace(graph, poll);
+    return;
+  }
+  BlockSystem transforms = transform_system(plan.rest, factor_kind(plan.options));
+  poll();
+  transforms.factor();
+  if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
+  plan.transforms = std::move(transforms);
+}
+
+void make(ReshapePlan& plan, const ProgressFn& progress) {
+  Progress now{"", 0, plan.options.pass_limit, 0, 0};
+  const auto asked = [&] { return !progress || progress(now); };
+  const auto begin = [&](const char* stage, double part) {
+    now.stage = stage;
+    now.fraction = part * kPrepared;
+    if (!asked()) throw Cancelled();
+  };
+  const Poll poll = sparing(asked);
+  const Stopwatch watch(plan.prepare_seconds);
+  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
+  begin("curvature", 0);
+  const Curvatures curvatures = plan.options.unit_box_curvatures
+                                    ? *plan.options.unit_box_curvatures
+                                    : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
+  poll();
+  plan.weights = step_weights(plan.options, unit_mesh);
+  plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
+  plan.paths =
+      choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.straight.empty());
+  begin("order", 0.2);
+  plan.vertices = vertex_system(plan.rest, plan.straight, vertex_factor_kind(plan), poll);
+  begin("factor", 0.4);
+  factor_or_coarsen(plan, poll);
+  begin("coarse", 0.8);
+  plan.coarse = coarse_plan(plan, curvatures, poll, plan.paths.why_no_coarse_start);
+  begin("workspace", 0.95);
+  const auto first =
+      plan.workspaces.lend([&] { return workspace(plan, poll); });         // For the first solve, as fast as any.
+  if (first->transforms) std::swap(*first->transforms, *plan.transforms);  // It has analysed its pattern.
+  plan.prepared = true;
+}
+
+}  // namespace
+
+std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll) {
+  std::unique_ptr<TransformStep> step = plan.options.backend->transform(plan.rest);
+  ask(poll);
+  auto work = std::make_unique<Workspace>(Workspace{std::move(step), plan.vertices->unsolved(), {}, {}});
+  ask(poll);
+  if (plan.multilevel) work->coupling = plan.options.backend->coupling(plan.rest);
+  if (plan.options.refactor_every_pass) work->transforms = plan.transforms->unfactored();
+  return work;
+}
+
+bool prepare(ReshapePlan& plan, const ProgressFn& progress) {
+  const std::lock_guard lock(plan.preparing);
+  if (plan.prepared) return true;
+  try {
+    make(plan, progress);
+    return true;
+  } catch (const Cancelled&) {
+    return false;
+  }
+}
+
+}  // namespace swage
