@@ -12,7 +12,8 @@ using Eigen::Matrix3d;
 
 // What multigrid leaves of a pass's error. Tenfold less of either takes as many passes; twice as much, more.
 constexpr double kNearTransforms = 0.1, kNearVertices = 1e-2;
-constexpr int kMostIterations = 300;
+// A factor is made and used in the time of 40 to 100 iterations.
+constexpr int kMostForVertices = 60;
 // What transforms do to normals hardly matters and converges slowly: left to the passes to come.
 constexpr int kMostForTransforms = 20;
 
@@ -95,23 +96,34 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
                          const Poll& poll) {
+  if (!vertices.system.has_factor()) {
+    if (std::optional<Positions> placed =
+            place_by_multigrid(vertices, rest, quadratics, straight, straightness_weight, holds, start, poll)) {
+      return *placed;
+    }
+    vertices = vertex_system(rest, straight);
+  }
   const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
   ask(poll);
+  const Eigen::VectorXd solution =
+      vertices.system.solve_near(right_hand_side, Eigen::Map<const Eigen::VectorXd>(start.data(), start.size()));
+  return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
+}
+
+std::optional<Positions> place_by_multigrid(VertexSystem& vertices, const TransformStep::Rest& rest,
+                                            const TransformStep::EdgeQuadratics& quadratics,
+                                            const std::vector<StraightTriple>& straight, double straightness_weight,
+                                            const std::vector<Holds>& holds, const Positions& start, const Poll& poll) {
+  const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
+  ask(poll);
+  const ElementGraph graph = vertex_graph(rest, quadratics, holds);
+  ask(poll);
+  vertices.multilevel ? vertices.multilevel->refill(graph) : void(vertices.multilevel.emplace(graph, poll));
+  const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
   Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(start.data(), start.size());
-  if (vertices.system.has_factor()) {
-    solution = vertices.system.solve_near(right_hand_side, solution);
-  } else {
-    const ElementGraph graph = vertex_graph(rest, quadratics, holds);
-    ask(poll);
-    vertices.multilevel ? vertices.multilevel->refill(graph) : void(vertices.multilevel.emplace(graph, poll));
-    const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
-    const Gradients done =
-        vertices.multilevel->improve(times_matrix, right_hand_side, kNearVertices, kMostIterations, solution, poll);
-    if (!done.converged) {  // As on straight chains, which it knows nothing of.
-      vertices = vertex_system(rest, straight);
-      return place_vertices(vertices, rest, quadratics, straight, straightness_weight, holds, start, poll);
-    }
-  }
+  const Gradients done =
+      vertices.multilevel->improve(times_matrix, right_hand_side, kNearVertices, kMostForVertices, solution, poll);
+  if (!done.converged) return std::nullopt;
   return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
 }
 

@@ -32,6 +32,16 @@ void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
   plan.transforms = std::move(transforms);
 }
 
+/// Tried on the way back to rest from twice the size.
+bool multigrid_suits(const ReshapePlan& plan, Workspace& work, const Poll& poll) {
+  TransformStep::EdgeQuadratics quadratics;
+  work.step->fit_edges(identities(plan.rest.triangles.rows()), quadratics);
+  const Holds hold{{0}, plan.rest.vertices.topRows(1), plan.weights.handle};
+  return place_by_multigrid(work.vertices, plan.rest, quadratics, plan.straight, plan.weights.straightness, {hold},
+                            2 * plan.rest.vertices, poll)
+      .has_value();
+}
+
 void make(ReshapePlan& plan, const ProgressFn& progress) {
   Progress now{"", 0, plan.options.pass_limit, 0, 0};
   const auto asked = [&] { return !progress || progress(now); };
@@ -62,6 +72,13 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   const auto first =
       plan.workspaces.lend([&] { return workspace(plan, poll); });         // For the first solve, as fast as any.
   if (first->transforms) std::swap(*first->transforms, *plan.transforms);  // It has analysed its pattern.
+  if (plan.options.linear_solver == LinearSolver::automatic && plan.paths.vertices == LinearSolver::multigrid &&
+      !multigrid_suits(plan, *first, poll)) {
+    plan.paths.vertices = LinearSolver::factor;
+    plan.paths.why_vertices = "multigrid is slow on these triangles";
+    plan.vertices = vertex_system(plan.rest, plan.straight, factor_kind(plan.options), poll);
+    first->vertices = plan.vertices->unsolved();
+  }
   plan.prepared = true;
 }
 

@@ -164,6 +164,12 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
                          double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
                          const Poll& poll = {});
+/// The same of a system without a factor; none where that would take longer than to make one: on needles, which vary
+/// too much, and on straight chains, of which multigrid does not know.
+std::optional<Positions> place_by_multigrid(VertexSystem& vertices, const TransformStep::Rest& rest,
+                                            const TransformStep::EdgeQuadratics& quadratics,
+                                            const std::vector<StraightTriple>& straight, double straightness_weight,
+                                            const std::vector<Holds>& holds, const Positions& start, const Poll& poll);
 /// Minimises the transform step's quadratic (eq. 35).
 Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides);
 

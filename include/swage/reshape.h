@@ -30,8 +30,9 @@ const char* to_string(ReshapeSolver solver);
 
 /// What the two global systems of a pass are solved by: three unknowns a vertex, nine a triangle.
 enum class LinearSolver {
-  automatic,  ///< Vertices by multigrid from 1,500 on and where no chains are straight, else by a factor; transforms by
-              ///< a factor where it fits into ReshapeOptions::factor_memory, else by multigrid.
+  automatic,  ///< Vertices by multigrid from 1,500 on where no chains are straight and a trial takes few iterations,
+              ///< else by a factor; transforms by a factor where it fits into ReshapeOptions::factor_memory, else by
+              ///< multigrid.
   factor,     ///< Sparse Cholesky. The transforms' takes 2.5 GB at 84,000 triangles, and grows faster than the mesh.
   multigrid,  ///< Conjugate gradients preconditioned by aggregation multigrid, far enough for the passes to reach the
               ///< same fixed point within their stop's tolerance. Straight chains still have their vertices factored.

@@ -77,6 +77,14 @@ TEST(LinearSolver, AFactorTakesAboutWhatWasEstimated) {
   EXPECT_LT(bytes, 1.8 * estimate);
 }
 
+TEST(LinearSolver, AutomaticTriesMultigridAndLeavesNeedlesToAFactor) {
+  ReshapeOptions options;
+  options.pass_limit = 1;
+  const auto path = [&](const Mesh& mesh) { return solved(mesh, options).report.paths.at("vertex_step"); };
+  EXPECT_EQ(path(test::cylinder(0.3, 1, 60, 40)), "multigrid: 3182 vertices");
+  EXPECT_EQ(path(test::cylinder(0.3, 1, 300, 2)), "factor: multigrid is slow on these triangles");
+}
+
 TEST(LinearSolver, StraightChainsHaveTheirVerticesFactored) {
   const Mesh mesh = test::box({1, 2, 0.5}, 16);
   ReshapeOptions options = by(LinearSolver::multigrid);
