@@ -1,6 +1,6 @@
 // The global steps: two sparse systems.
-#include "conjugate_gradients.h"
 #include "element_graphs.h"
+#include "gradients.h"
 #include "plan.h"
 #include "sphericity.h"
 #include "swage/error.h"
@@ -12,6 +12,9 @@ using Eigen::Matrix3d;
 
 // What multigrid leaves of a pass's error. Tenfold less of either takes as many passes; twice as much, more.
 constexpr double kNearTransforms = 0.1, kNearVertices = 1e-2;
+// First passes go far, and what they leave moves vertices farther than energies tell.
+constexpr double kNearVerticesAtFirst = 1e-3;
+constexpr int kFirst = 2;
 // A factor is made and used in the time of 40 to 100 iterations.
 constexpr int kMostForVertices = 60;
 // What transforms do to normals hardly matters and converges slowly: left to the passes to come.
@@ -121,8 +124,9 @@ std::optional<Positions> place_by_multigrid(VertexSystem& vertices, const Transf
   vertices.multilevel ? vertices.multilevel->refill(graph) : void(vertices.multilevel.emplace(graph, poll));
   const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
   Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(start.data(), start.size());
+  const double near = vertices.solves++ < kFirst ? kNearVerticesAtFirst : kNearVertices;
   const Gradients done =
-      vertices.multilevel->improve(times_matrix, right_hand_side, kNearVertices, kMostForVertices, solution, poll);
+      vertices.multilevel->improve(times_matrix, right_hand_side, near, kMostForVertices, solution, poll);
   if (!done.converged) return std::nullopt;
   return Eigen::Map<const Positions>(solution.data(), rest.vertices.rows(), 3);
 }

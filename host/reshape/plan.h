@@ -13,6 +13,7 @@
 #include "measures.h"
 #include "multilevel.h"
 #include "pool.h"
+#include "renumber.h"
 #include "stopwatch.h"
 #include "swage/reshape.h"
 
@@ -37,6 +38,7 @@ struct VertexSystem {
   std::shared_ptr<const BlockSystem::Stars> edges;
   std::shared_ptr<const Eigen::VectorXd> sphericity;  ///< The matrix's values of the sphericity term alone.
   std::optional<Multilevel> multilevel = {};          ///< Of a pass before, where the system is not factored.
+  int solves = 0;                                     ///< By it.
 
   /// The same, as new.
   VertexSystem unsolved() const { return {system.unfactored(), edges, sphericity}; }
@@ -48,6 +50,7 @@ struct VertexSystem {
   void forget() {
     system.forget_factor();
     multilevel.reset();
+    solves = 0;
   }
 };
 
@@ -77,7 +80,8 @@ struct CoarsePlan;
 /// Solves read it, several at once, but for the pool.
 struct ReshapePlan {
   ReshapeOptions options;
-  Mesh mesh;  ///< As given, mesh units.
+  std::optional<Renumbered> renumbered;  ///< Where what follows is not in the order given.
+  Mesh mesh;                             ///< Mesh units.
   UnitBox box;
   Edges edges;
   std::vector<StraightTriple> straight;

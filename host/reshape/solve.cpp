@@ -165,6 +165,39 @@ ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const Reshape
   return result;
 }
 
+/// The published solver is never another, whatever rounds in another order.
+std::optional<Renumbered> renumbered(const ReshapeOptions& options, const Mesh& mesh) {
+  constexpr Eigen::Index kWorthwhile = 10'000;  // Vertices. Fewer are near each other in memory in any order.
+  if (options.solver == ReshapeSolver::published || mesh.positions.rows() < kWorthwhile) return std::nullopt;
+  return Renumbered(mesh);
+}
+
+/// What `call` returns; where it throws for an element, that as the caller numbers it.
+template <typename Call>
+auto as_given(const ReshapePlan& plan, const Call& call) {
+  try {
+    return call();
+  } catch (const Indefinite& error) {
+    if (!plan.renumbered) throw;
+    const bool vertex = error.unknowns() == plan.mesh.positions.size();
+    throw Indefinite(error.unknowns(),
+                     vertex ? plan.renumbered->vertex(error.element()) : plan.renumbered->triangle(error.element()));
+  }
+}
+
+ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const ReshapeResult* start,
+                             const ProgressFn& progress) {
+  const Mesh& given = plan.renumbered ? plan.renumbered->given() : plan.mesh;
+  check(gesture, given.positions, given.triangles);
+  if (start) check_start(*start, plan.options, given);
+  return as_given(plan, [&] {
+    if (!plan.renumbered) return solve(plan, gesture, start, progress);
+    std::optional<ReshapeResult> from;
+    if (start) from = plan.renumbered->into(*start);
+    return plan.renumbered->back(solve(plan, plan.renumbered->into(gesture), start ? &*from : nullptr, progress));
+  });
+}
+
 }  // namespace
 
 Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options) {
@@ -173,28 +206,36 @@ Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, c
   check_options(options, mesh);
   Edges edges = edges_of(mesh.triangles);
   check_surface(mesh, edges);
-  std::vector<StraightTriple> straight =
-      straight_triples(options.straight_chains, edges, static_cast<int>(mesh.positions.rows()));
+  const auto vertex_count = static_cast<int>(mesh.positions.rows());
+  std::vector<StraightTriple> straight = straight_triples(options.straight_chains, edges, vertex_count);
   const UnitBox box = unit_box(mesh.positions);
-  plan_.reset(new ReshapePlan{options, std::move(mesh), box, std::move(edges), std::move(straight)});
-  if (!plan_->options.backend) plan_->options.backend = cpu_backend();
+  std::optional<Renumbered> other = renumbered(options, mesh);
+  ReshapeOptions own = options;
+  if (other) {
+    mesh = other->mesh();
+    own = other->into(std::move(own));
+    edges = edges_of(mesh.triangles);
+    straight = straight_triples(own.straight_chains, edges, vertex_count);
+  }
+  if (!own.backend) own.backend = cpu_backend();
+  plan_.reset(
+      new ReshapePlan{std::move(own), std::move(other), std::move(mesh), box, std::move(edges), std::move(straight)});
 }
 
 Reshape::~Reshape() = default;
 Reshape::Reshape(Reshape&&) noexcept = default;
 Reshape& Reshape::operator=(Reshape&&) noexcept = default;
 
-bool Reshape::prepare(const ProgressFn& progress) { return swage::prepare(*plan_, progress); }
+bool Reshape::prepare(const ProgressFn& progress) {
+  return as_given(*plan_, [&] { return swage::prepare(*plan_, progress); });
+}
 
 ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress) {
-  check(gesture, plan_->mesh.positions, plan_->mesh.triangles);
-  return swage::solve(*plan_, gesture, nullptr, progress);
+  return solve_as_given(*plan_, gesture, nullptr, progress);
 }
 
 ReshapeResult Reshape::solve(const Gesture& gesture, const ReshapeResult& start, const ProgressFn& progress) {
-  check(gesture, plan_->mesh.positions, plan_->mesh.triangles);
-  check_start(start, plan_->options, plan_->mesh);
-  return swage::solve(*plan_, gesture, &start, progress);
+  return solve_as_given(*plan_, gesture, &start, progress);
 }
 
 ReshapeResult reshape(const PositionsRef& positions, const TrianglesRef& triangles, const Gesture& gesture,

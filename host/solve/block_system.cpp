@@ -15,7 +15,8 @@
 namespace swage {
 namespace {
 
-constexpr double kWorstError = 0.1;  // Of a solve in single precision.
+constexpr Eigen::Index kWorthThreads = 20000;  // Groups.
+constexpr double kWorstError = 0.1;            // Of a solve in single precision.
 constexpr double kNear = 1e-5;
 constexpr int kIterationsOfAFactor = 12;  // That take as long: 10 to 15 on vertex steps of 4,000 to 84,000 triangles.
 
@@ -35,6 +36,13 @@ std::vector<int> elimination_order(const SparseMatrix& graph) {
 }
 
 }  // namespace
+
+Indefinite::Indefinite(Eigen::Index unknowns, int element)
+    : Unsolvable("factor: the matrix of " + std::to_string(unknowns) +
+                 " unknowns is not positive definite, first seen at element " + std::to_string(element) +
+                 "; look there for degenerate triangles or a part without a handle"),
+      unknowns_(unknowns),
+      element_(element) {}
 
 BlockSystem::BlockSystem(int group_count, int rows_per_group, const std::vector<std::pair<int, int>>& couplings,
                          std::optional<FactorKind> kind)
@@ -82,8 +90,9 @@ BlockSystem::Pattern BlockSystem::order(int group_count, const std::vector<std::
   std::vector<int> elimination(static_cast<size_t>(group_count));
   std::iota(elimination.begin(), elimination.end(), 0);
   if (!as_given) elimination = elimination_order(graph);
-  Pattern pattern{std::vector<int>(static_cast<size_t>(group_count)),
-                  std::vector<std::vector<int>>(static_cast<size_t>(group_count))};
+  const auto groups = static_cast<size_t>(group_count);
+  Pattern pattern{std::vector<int>(groups), std::vector<std::vector<int>>(groups),
+                  std::vector<std::vector<Ray>>(groups), as_given};
   for (int p = 0; p < group_count; ++p) pattern.place[static_cast<size_t>(elimination[static_cast<size_t>(p)])] = p;
   for (int g = 0; g < group_count; ++g) {
     const int p = pattern.place[static_cast<size_t>(g)];
@@ -93,6 +102,12 @@ BlockSystem::Pattern BlockSystem::order(int group_count, const std::vector<std::
       if (q < p) above.push_back(q);
     }
     std::sort(above.begin(), above.end());
+  }
+  for (int p = 0; p < group_count; ++p) {
+    const std::vector<int>& above = pattern.above[static_cast<size_t>(p)];
+    for (size_t k = 0; k < above.size(); ++k) {
+      pattern.below[static_cast<size_t>(above[k])].push_back({p, 3 * static_cast<int>(k)});
+    }
   }
   return pattern;
 }
@@ -183,7 +198,6 @@ BlockSystem::Stars BlockSystem::stars(
 
 void BlockSystem::add_differences(const Stars& stars,
                                   const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& blocks) {
-  constexpr Eigen::Index kWorthThreads = 20000;
   constexpr std::array<std::array<int, 3>, 3> kPacked = {{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
   const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
 #pragma omp parallel for schedule(static) if (groups > kWorthThreads)
@@ -212,9 +226,7 @@ void BlockSystem::factor() {
   if (first < 0) return;
   const auto group =
       std::find(pattern_->place.begin(), pattern_->place.end(), first / width_) - pattern_->place.begin();
-  throw Unsolvable("factor: the matrix of " + std::to_string(unknowns()) +
-                   " unknowns is not positive definite, first seen at element " + std::to_string(group) +
-                   "; look there for degenerate triangles or a part without a handle");
+  throw Indefinite(unknowns(), static_cast<int>(group));
 }
 
 Eigen::MatrixXd BlockSystem::solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides) const {
@@ -244,7 +256,9 @@ Eigen::VectorXd BlockSystem::improved(const Eigen::Ref<const Eigen::VectorXd>& r
   Eigen::MatrixXd left, start;
   into_order(right_hand_side, left);
   into_order(guess, start);
-  left -= matrix_.selfadjointView<Eigen::Upper>() * start;
+  Eigen::VectorXd image;
+  multiply(start.col(0), image);
+  left.col(0) -= image;
   panels_->solve(left.col(0));
   return as_given(start + left);
 }
@@ -257,13 +271,12 @@ Eigen::VectorXd BlockSystem::solve_near(const Eigen::Ref<const Eigen::VectorXd>&
     into_order(guess, solution);
     const Eigen::VectorXd side = sides.col(0);
     Eigen::VectorXd near = solution.col(0);
-    const Gradients done = conjugate_gradients(
-        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = matrix_.selfadjointView<Eigen::Upper>() * x; },
-        [this](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
-          error = residual;
-          panels_ ? panels_->solve(error) : factor_->solve(error);
-        },
-        side, kNear, kIterationsOfAFactor, near);
+    const Gradients done = conjugate_gradients([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { multiply(x, y); },
+                                               [this](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
+                                                 error = residual;
+                                                 panels_ ? panels_->solve(error) : factor_->solve(error);
+                                               },
+                                               side, kNear, kIterationsOfAFactor, near);
     factor_is_near_ = 2 * done.iterations <= kIterationsOfAFactor;
     if (done.converged) return as_given(near);
   }
@@ -279,24 +292,78 @@ std::size_t BlockSystem::bytes() const {
 }
 
 Eigen::VectorXd BlockSystem::times(const Eigen::Ref<const Eigen::VectorXd>& vector) const {
+  Eigen::VectorXd product;
+  if (pattern_->as_given) {
+    multiply(vector, product);
+    return product;
+  }
   Eigen::MatrixXd ordered;
   into_order(vector, ordered);
-  return as_given(matrix_.selfadjointView<Eigen::Upper>() * ordered);
+  multiply(ordered.col(0), product);
+  return as_given(product);
+}
+
+void BlockSystem::multiply(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const {
+  y.resize(unknowns());
+  width_ == 3 ? multiply_rows<1>(x.data(), y.data()) : multiply_rows<3>(x.data(), y.data());
+}
+
+template <int kRows>
+void BlockSystem::multiply_rows(const double* x, double* y) const {
+  constexpr int kWidth = 3 * kRows;
+  using Rows = Eigen::Matrix<double, 3, kRows>;
+  const auto entries = [this](Eigen::Index column, Eigen::Index first) {
+    return matrix_.valuePtr() + matrix_.outerIndexPtr()[column] + first;
+  };
+  const auto groups = static_cast<Eigen::Index>(pattern_->above.size());
+#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+  for (Eigen::Index p = 0; p < groups; ++p) {
+    const std::vector<int>& above = pattern_->above[static_cast<size_t>(p)];
+    Rows sum = Rows::Zero();
+    for (size_t k = 0; k < above.size(); ++k) {
+      const Eigen::Map<const Rows> theirs(x + Eigen::Index{above[k]} * kWidth);
+      for (int c = 0; c < kWidth; ++c) {
+        const Eigen::Map<const Eigen::Vector3d> column(entries(p * kWidth + c, 3 * static_cast<Eigen::Index>(k)));
+        sum(c % 3, c / 3) += column.dot(theirs.col(c / 3));
+      }
+    }
+    for (const Ray& ray : pattern_->below[static_cast<size_t>(p)]) {
+      const double* theirs = x + Eigen::Index{ray.place} * kWidth;
+      for (int c = 0; c < kWidth; ++c) {
+        sum.col(c / 3) +=
+            theirs[c] * Eigen::Map<const Eigen::Vector3d>(entries(Eigen::Index{ray.place} * kWidth + c, ray.above));
+      }
+    }
+    for (int c = 0; c < kWidth; ++c) {
+      const double* column = entries(p * kWidth + c, 3 * static_cast<Eigen::Index>(above.size()));
+      const double* mine = x + p * kWidth;
+      for (int r = 0; r < c; ++r) {
+        sum(r % 3, r / 3) += column[r] * mine[c];
+        sum(c % 3, c / 3) += column[r] * mine[r];
+      }
+      sum(c % 3, c / 3) += column[c] * mine[c];
+    }
+    Eigen::Map<Rows>(y + p * kWidth) = sum;
+  }
 }
 
 void BlockSystem::into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::MatrixXd& ordered) const {
   ordered.resize(columns.rows(), columns.cols());
-  for (size_t g = 0; g < pattern_->place.size(); ++g) {
-    ordered.middleRows(pattern_->place[g] * width_, width_) =
-        columns.middleRows(static_cast<Eigen::Index>(g) * width_, width_);
+  const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
+#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+  for (Eigen::Index g = 0; g < groups; ++g) {
+    ordered.middleRows(Eigen::Index{pattern_->place[static_cast<size_t>(g)]} * width_, width_) =
+        columns.middleRows(g * width_, width_);
   }
 }
 
 Eigen::MatrixXd BlockSystem::as_given(const Eigen::MatrixXd& ordered) const {
   Eigen::MatrixXd result(ordered.rows(), ordered.cols());
-  for (size_t g = 0; g < pattern_->place.size(); ++g) {
-    result.middleRows(static_cast<Eigen::Index>(g) * width_, width_) =
-        ordered.middleRows(pattern_->place[g] * width_, width_);
+  const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
+#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+  for (Eigen::Index g = 0; g < groups; ++g) {
+    result.middleRows(g * width_, width_) =
+        ordered.middleRows(Eigen::Index{pattern_->place[static_cast<size_t>(g)]} * width_, width_);
   }
   return result;
 }

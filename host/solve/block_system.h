@@ -8,8 +8,21 @@
 #include <vector>
 
 #include "factor.h"
+#include "swage/error.h"
 
 namespace swage {
+
+/// A matrix that is not positive definite, first seen at a group.
+class Indefinite : public Unsolvable {
+ public:
+  Indefinite(Eigen::Index unknowns, int element);
+  Eigen::Index unknowns() const { return unknowns_; }
+  int element() const { return element_; }
+
+ private:
+  Eigen::Index unknowns_;
+  int element_;
+};
 
 /// The unknowns of a group stand in rows of three. Two groups couple row by row: through a 3 × 3 block that joins
 /// their first rows, the same or another for the second, and so on. So a vertex is a group of one row, and a
@@ -81,6 +94,10 @@ class BlockSystem {
   std::size_t bytes() const;
 
  private:
+  /// y = matrix x, both in order.
+  void multiply(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
+  template <int kRows>
+  void multiply_rows(const double* x, double* y) const;
   /// Group after group as given ⇄ in the order of elimination.
   void into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::MatrixXd& ordered) const;
   Eigen::MatrixXd as_given(const Eigen::MatrixXd& ordered) const;
@@ -88,9 +105,14 @@ class BlockSystem {
   /// Where the first entry of block (above, column's group) stands in each of the column's entries.
   int offset(int above, int group) const;
 
+  struct Ray {
+    int place, above;  // Whose column, and where in it.
+  };
   struct Pattern {
     std::vector<int> place;               // Group → its place in the order.
     std::vector<std::vector<int>> above;  // For each place the places before it that it couples to, ascending.
+    std::vector<std::vector<Ray>> below;  // For each place the others' blocks above whose place it is.
+    bool as_given = false;                // Whether places are those of the groups.
     FactorKind kind = FactorKind::simplicial;
   };
   static std::shared_ptr<const Pattern> pattern(int group_count, int width,

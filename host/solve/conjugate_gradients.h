@@ -4,18 +4,22 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace swage {
+#include "gradients.h"
+#include "vectors.h"
 
-struct Gradients {
-  int iterations = 0;
-  bool converged = false;
-};
+namespace swage {
 
 /// Whether `limit` iterations would not do, going by those so far, which left `part` of the error's square.
 inline bool hopeless(int iterations, int limit, double part, double part_enough) {
   constexpr int kTelling = 4;
   return iterations >= kTelling && iterations * std::log(part_enough) / std::log(part) > 2 * limit;
 }
+
+/// What conjugate gradients write, to be used again for systems of the same size.
+template <typename Vector>
+struct GradientsWork {
+  Vector image, error, residual, direction;
+};
 
 /// Improves `solution` of matrix · solution = right_hand_side until the error, in the norm that the preconditioner
 /// stands for, is `tolerance` times what it was, for `limit` iterations, or until those so far tell that twice the
@@ -24,19 +28,16 @@ inline bool hopeless(int iterations, int limit, double part, double part_enough)
 /// double.
 template <typename Vector, typename TimesMatrix, typename Precondition>
 Gradients conjugate_gradients(const TimesMatrix& times_matrix, const Precondition& precondition,
-                              const Vector& right_hand_side, double tolerance, int limit, Vector& solution) {
-  using Scalar = typename Vector::Scalar;
-  const auto product = [](const Vector& a, const Vector& b) {
-    return a.template cast<double>().dot(b.template cast<double>());
-  };
+                              const Vector& right_hand_side, double tolerance, int limit, Vector& solution,
+                              GradientsWork<Vector>& work) {
+  auto& [image, error, residual, direction] = work;
   Gradients result;
-  Vector image, error;
   times_matrix(solution, image);
-  Vector residual = right_hand_side - image;
+  residual = right_hand_side - image;
   result.converged = residual.isZero(0);
   if (result.converged) return result;
   precondition(residual, error);
-  Vector direction = error;
+  direction = error;
   double square = product(residual, error);
   const double first = square, enough = tolerance * tolerance;
   while (square > 0) {
@@ -47,16 +48,23 @@ Gradients conjugate_gradients(const TimesMatrix& times_matrix, const Preconditio
     const double bend = product(direction, image);
     if (!(bend > 0)) break;
     const double step = square / bend;
-    solution += static_cast<Scalar>(step) * direction;
-    residual -= static_cast<Scalar>(step) * image;
+    combine(step, direction, 1, solution);
+    combine(-step, image, 1, residual);
     precondition(residual, error);
     // Polak, Ribière: a preconditioner need not be quite the same from one iteration to the next.
-    const double turn = -step * product(image, error) / square;
-    direction = error + static_cast<Scalar>(turn) * direction;
-    square = product(residual, error);
+    const auto [error_image, error_residual] = products<Vector, 2>(error, {&image, &residual});
+    combine(1, error, -step * error_image / square, direction);
+    square = error_residual;
     ++result.iterations;
   }
   return result;
+}
+
+template <typename Vector, typename TimesMatrix, typename Precondition>
+Gradients conjugate_gradients(const TimesMatrix& times_matrix, const Precondition& precondition,
+                              const Vector& right_hand_side, double tolerance, int limit, Vector& solution) {
+  GradientsWork<Vector> work;
+  return conjugate_gradients(times_matrix, precondition, right_hand_side, tolerance, limit, solution, work);
 }
 
 }  // namespace swage

@@ -4,7 +4,9 @@
 #include <iterator>
 #include <numeric>
 
+#include "conjugate_gradients.h"
 #include "level.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -14,21 +16,34 @@ using Eigen::VectorXf;
 
 constexpr int kRounds = 3;        // Of pairing: up to eight elements become one.
 constexpr int kCoarsest = 300;    // Elements that are solved for at once.
-constexpr float kEnough = 0.25F;  // A coarse residual so much smaller needs no second step.
+constexpr double kEnough = 0.25;  // A coarse residual so much smaller needs no second step.
 
 using Levels = std::vector<std::unique_ptr<Level>>;
 
-/// What a cycle writes on a level, kept from one to the next.
+/// What a cycle writes on a level.
 struct Scratch {
-  VectorXf right, solution, left, first, image, second_image;
+  VectorXf right, solution, left, first, image, second_image, correction;
 };
 
-/// One thread's cycles.
+}  // namespace
+
+/// What one thread's solves write.
+struct MultilevelWork {
+  std::vector<Scratch> levels;
+  GradientsWork<VectorXf> single;
+  GradientsWork<Eigen::VectorXd> twice;
+  VectorXf right, found;
+};
+
+namespace {
+
 template <int kRows>
 class Cycles {
  public:
-  Cycles(const Levels& levels, const BlockSystem& coarsest)
-      : levels_(levels), coarsest_(coarsest), scratch_(levels.size() + 1) {}
+  Cycles(const Levels& levels, const BlockSystem& coarsest, std::vector<Scratch>& scratch)
+      : levels_(levels), coarsest_(coarsest), scratch_(scratch) {
+    scratch_.resize(levels.size() + 1);
+  }
 
   /// About the error that leaves the residual `right` on a level.
   void cycle(size_t depth, const VectorXf& right, VectorXf& error) {
@@ -42,10 +57,12 @@ class Cycles {
     level.begin<kRows>(right, mine.solution);
     level.residual<kRows>(right, mine.solution, mine.left);
     level.gather<kRows>(mine.left, below.right);
-    solve_coarse(depth + 1, below.right, mine.left);
-    level.scatter<kRows>(mine.left, mine.solution);
+    solve_coarse(depth + 1, below.right, below.correction);
+    level.scatter<kRows>(below.correction, mine.solution);
     level.sweep<kRows>(right, mine.solution, error);
   }
+
+  void multiply(const VectorXf& x, VectorXf& image) const { levels_.front()->multiply<kRows>(x, image); }
 
  private:
   /// One or two steps of conjugate gradients, each preconditioned by the levels below (K-cycle).
@@ -55,63 +72,33 @@ class Cycles {
     Scratch& mine = scratch_[depth];
     cycle(depth, right, mine.first);
     level.multiply<kRows>(mine.first, mine.image);
-    const float energy = mine.first.dot(mine.image), gain = mine.first.dot(right);
+    const auto [energy, gain] = products<VectorXf, 2>(mine.first, {&mine.image, &right});
     if (!(energy > 0)) {
       solution = mine.first;
       return;
     }
-    const float before = right.norm();
-    right -= gain / energy * mine.image;
-    if (right.norm() > kEnough * before) {
+    const double before = product(right, right);
+    combine(-gain / energy, mine.image, 1, right);
+    if (product(right, right) > kEnough * kEnough * before) {
       cycle(depth, right, solution);
       level.multiply<kRows>(solution, mine.second_image);
-      const float mixed = solution.dot(mine.image), second_gain = solution.dot(right);
-      const float second_energy = solution.dot(mine.second_image) - mixed * mixed / energy;
+      const auto [mixed, second_gain, bend] =
+          products<VectorXf, 3>(solution, {&mine.image, &right, &mine.second_image});
+      const double second_energy = bend - mixed * mixed / energy;
       if (second_energy > 0) {
-        const float more = second_gain / second_energy;
-        solution = (gain / energy - mixed / energy * more) * mine.first + more * solution;
+        const double more = second_gain / second_energy;
+        combine((gain - mixed * more) / energy, mine.first, more, solution);
         return;
       }
     }
-    solution = gain / energy * mine.first;
+    solution = mine.first;
+    solution *= static_cast<float>(gain / energy);
   }
 
   const Levels& levels_;
   const BlockSystem& coarsest_;
-  std::vector<Scratch> scratch_;
+  std::vector<Scratch>& scratch_;
 };
-
-template <int kRows>
-Gradients solve_by(Cycles<kRows> cycles, const Levels& levels, const Eigen::VectorXd& right_hand_side, double tolerance,
-                   int limit, Eigen::VectorXd& solution, const Poll& poll) {
-  const VectorXf right = right_hand_side.cast<float>();
-  VectorXf found = VectorXf::Zero(right.size());
-  const Gradients done =
-      conjugate_gradients([&](const VectorXf& x, VectorXf& image) { levels.front()->multiply<kRows>(x, image); },
-                          [&](const VectorXf& residual, VectorXf& error) {
-                            ask(poll);
-                            cycles.cycle(0, residual, error);
-                          },
-                          right, tolerance, limit, found);
-  solution = found.cast<double>();
-  return done;
-}
-
-template <int kRows>
-Gradients improve_by(Cycles<kRows> cycles, const Multilevel::TimesMatrix& times_matrix,
-                     const Eigen::VectorXd& right_hand_side, double tolerance, int limit, Eigen::VectorXd& solution,
-                     const Poll& poll) {
-  VectorXf right, left;
-  return conjugate_gradients(
-      times_matrix,
-      [&](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
-        ask(poll);
-        right = residual.cast<float>();
-        cycles.cycle(0, right, left);
-        error = left.cast<double>();
-      },
-      right_hand_side, tolerance, limit, solution);
-}
 
 void fill(BlockSystem& system, const ElementGraph& graph) {
   const int width = 3 * graph.rows;
@@ -135,7 +122,13 @@ void fill(BlockSystem& system, const ElementGraph& graph) {
     system.add(i, block);
     system.add(j, block);
   }
-  system.factor();
+  try {
+    system.factor();
+  } catch (const Indefinite&) {  // Its elements are no one's.
+    throw Unsolvable(
+        "multigrid: the coarsest level is not positive definite; look for degenerate triangles or a part without a "
+        "handle");
+  }
 }
 
 std::vector<std::pair<int, int>> couplings_apart(const ElementGraph& graph) {
@@ -147,7 +140,7 @@ std::vector<std::pair<int, int>> couplings_apart(const ElementGraph& graph) {
 
 }  // namespace
 
-Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) {
+Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) : works_(std::make_unique<Pool<MultilevelWork>>()) {
   ElementGraph coarse, next;
   const ElementGraph* now = &graph;
   Couplings couplings = couplings_of(graph);
@@ -197,23 +190,49 @@ Multilevel::~Multilevel() = default;
 Multilevel::Multilevel(Multilevel&&) noexcept = default;
 Multilevel& Multilevel::operator=(Multilevel&&) noexcept = default;
 
+template <typename Work>
+Gradients Multilevel::by_cycles(const Work& work) const {
+  const auto lent = works_->lend([] { return std::make_unique<MultilevelWork>(); });
+  if (!levels_.empty() && levels_.front()->rows == 3) {
+    Cycles<3> cycles(levels_, *coarsest_, lent->levels);
+    return work(cycles, *lent);
+  }
+  Cycles<1> cycles(levels_, *coarsest_, lent->levels);
+  return work(cycles, *lent);
+}
+
 Gradients Multilevel::solve(const Eigen::VectorXd& right_hand_side, double tolerance, int limit,
                             Eigen::VectorXd& solution, const Poll& poll) const {
   if (levels_.empty()) {
     solution = coarsest_->solve(right_hand_side);
     return {0, true};
   }
-  return levels_.front()->rows == 1
-             ? solve_by(Cycles<1>(levels_, *coarsest_), levels_, right_hand_side, tolerance, limit, solution, poll)
-             : solve_by(Cycles<3>(levels_, *coarsest_), levels_, right_hand_side, tolerance, limit, solution, poll);
+  return by_cycles([&](auto& cycles, MultilevelWork& work) {
+    work.right = right_hand_side.cast<float>();
+    work.found.setZero(work.right.size());
+    const auto precondition = [&](const VectorXf& residual, VectorXf& error) {
+      ask(poll);
+      cycles.cycle(0, residual, error);
+    };
+    const auto times_matrix = [&](const VectorXf& x, VectorXf& image) { cycles.multiply(x, image); };
+    const Gradients done =
+        conjugate_gradients(times_matrix, precondition, work.right, tolerance, limit, work.found, work.single);
+    solution = work.found.cast<double>();
+    return done;
+  });
 }
 
 Gradients Multilevel::improve(const TimesMatrix& times_matrix, const Eigen::VectorXd& right_hand_side, double tolerance,
                               int limit, Eigen::VectorXd& solution, const Poll& poll) const {
-  if (!levels_.empty() && levels_.front()->rows == 3) {
-    return improve_by(Cycles<3>(levels_, *coarsest_), times_matrix, right_hand_side, tolerance, limit, solution, poll);
-  }
-  return improve_by(Cycles<1>(levels_, *coarsest_), times_matrix, right_hand_side, tolerance, limit, solution, poll);
+  return by_cycles([&](auto& cycles, MultilevelWork& work) {
+    const auto precondition = [&](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
+      ask(poll);
+      work.right = residual.cast<float>();
+      cycles.cycle(0, work.right, work.found);
+      error = work.found.cast<double>();
+    };
+    return conjugate_gradients(times_matrix, precondition, right_hand_side, tolerance, limit, solution, work.twice);
+  });
 }
 
 int Multilevel::levels() const { return static_cast<int>(levels_.size()) + 1; }

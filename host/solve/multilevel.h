@@ -15,11 +15,13 @@
 #include "aggregation.h"
 #include "block_system.h"
 #include "cancel.h"
-#include "conjugate_gradients.h"
+#include "gradients.h"
+#include "pool.h"
 
 namespace swage {
 
 struct Level;
+struct MultilevelWork;
 
 class Multilevel {
  public:
@@ -46,9 +48,13 @@ class Multilevel {
   std::size_t bytes() const;
 
  private:
+  template <typename Work>
+  Gradients by_cycles(const Work& work) const;
+
   std::vector<std::unique_ptr<Level>> levels_;           // The finest first.
   std::vector<std::vector<std::pair<int, int>>> pairs_;  // Of each level but the finest.
   std::optional<BlockSystem> coarsest_;
+  std::unique_ptr<Pool<MultilevelWork>> works_;  // Fresh memory costs a tenth of a solve.
 };
 
 }  // namespace swage

@@ -191,6 +191,26 @@ std::vector<std::pair<int, int>> grid(int side) {
   return couplings;
 }
 
+// As many groups as several threads share, in two orders.
+TEST(BlockSystem, TimesIsTheSameInAnyOrder) {
+  const int side = 160;
+  BlockSystem given(side * side, 1, grid(side), FactorKind::none);
+  BlockSystem ordered(side * side, 1, grid(side), FactorKind::simplicial);
+  Eigen::Matrix3d block;
+  block << 1, 2, 3, -4, 5, 6, 7, -8, 9;
+  for (const auto& [i, j] : grid(side)) {
+    block *= -1.01;
+    if (block.norm() > 1e3) block /= block.norm();
+    for (BlockSystem* system : {&given, &ordered}) {
+      system->add(i, j, 0, block);
+      system->add(i, block + block.transpose());
+    }
+  }
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(given.unknowns(), -1, 2), product = given.times(x);
+  EXPECT_GT(product.norm(), 1);
+  EXPECT_LT((ordered.times(x) - product).norm(), 1e-12 * product.norm());
+}
+
 TEST(BlockSystem, AFactorBeyondIntIsRefused) { EXPECT_THROW(BlockSystem(800 * 800, 3, grid(800)), Unsolvable); }
 
 /// However large the system, and so whatever factor and order are taken.
