@@ -99,13 +99,14 @@ Flops flops_of_transform() {
     TriangleTerms terms = no_edges(normal, 1, 1);
     for (int k = 0; k < 3; ++k) {
       terms = add_edge(terms, m, normal, sub3(edge, normal), edge, 1, 1, 1);
-      length_weight(edge, 1);
+      length_weight(dot3(edge, edge), 1);
     }
   });
   const Flops per_edge = flops_of([=] {
     const EdgeSum sum =
         add_sides(edge_side(apply3(m, edge), m, normal, edge), edge_side(apply3(m, edge), m, normal, edge));
-    edge_quadratic(sum, sum.length, 1, edge, 1, 0, 1, 1);
+    const real target = target_length(sum.length, 0, edge);
+    edge_quadratic(sum, 1, edge, length_weight(target * target, 1), target, 1, 1);
     const Mat3 difference = sub_mat3(m, m);
     disagreement(difference, edge) + disagreement(difference, normal);
   });

@@ -123,6 +123,7 @@ void time_solves(benchmark::State& state, const std::string& name, const Solve& 
     state.SetIterationTime(seconds);
     all.push_back(seconds);
   }
+  state.counters["median_s"] = median(all);
 }
 
 bool is_reference(const Model& model) {

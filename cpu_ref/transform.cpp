@@ -72,7 +72,11 @@ class CpuTransform final : public TransformStep {
     quadratics.right_hand_sides.resize(edge_count, 3);
     quadratics.target_lengths.resize(edge_count);
 #pragma omp parallel for schedule(static) if (edge_count > kWorthThreads)
-    for (Eigen::Index e = 0; e < edge_count; ++e) fit_edge(e, quadratics);
+    for (Eigen::Index e = 0; e < edge_count; ++e) {
+      quadratics.target_lengths[e] = target_length(e);
+      if (rest_.weighs_targets) length_weights_[e] = length_weight(quadratics.target_lengths[e]);
+      fit_edge(e, quadratics);
+    }
   }
 
   Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) override {
@@ -86,12 +90,14 @@ class CpuTransform final : public TransformStep {
 #pragma omp parallel for schedule(static) if (rest_.triangles.rows() > kWorthThreads)
     for (Eigen::Index t = 0; t < rest_.triangles.rows(); ++t) right_hand_sides.row(t) = right_hand_side(t);
     const Energy reached = energy(positions);
-    length_weights_ = vectors_.rowwise().norm().unaryExpr([this](double l) { return length_weight(l); });
+    if (!rest_.weighs_targets) {
+      length_weights_ = vectors_.rowwise().norm().unaryExpr([this](double l) { return length_weight(l); });
+    }
     return reached;
   }
 
  private:
-  /// Eq. 6 with the current length.
+  /// Eq. 6.
   double length_weight(double length) const {
     const double relative = length / rest_.mean_edge_length;
     return std::max(1.0, relative * relative);
@@ -139,7 +145,7 @@ class CpuTransform final : public TransformStep {
   /// Eqs. 20, 21 and 34, each triangle beside the edge.
   void fit_edge(Eigen::Index e, EdgeQuadratics& quadratics) const {
     const Vector3d rest_vector = rest_.edge_vectors.row(e);
-    const double rest_length = rest_lengths_[e], target = target_length(e), weight = length_weights_[e];
+    const double rest_length = rest_lengths_[e], target = quadratics.target_lengths[e], weight = length_weights_[e];
     const double scale = rest_.scale_weight / rest_.mean_edge_length;
     Matrix3d block = scale * Matrix3d::Identity();
     Vector3d side = scale * rest_vector;
@@ -153,7 +159,6 @@ class CpuTransform final : public TransformStep {
     }
     quadratics.blocks.row(e) << block(0, 0), block(0, 1), block(0, 2), block(1, 1), block(1, 2), block(2, 2);
     quadratics.right_hand_sides.row(e) = side;
-    quadratics.target_lengths[e] = target;
   }
 
   /// Of eq. 24 in the form (1/L) |T e0 - e|² and of eq. 28.

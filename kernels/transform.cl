@@ -50,7 +50,7 @@ kernel void invert(const int items, const int count, const int maps_normals, glo
   store_inverse(inverse.matrix, triangle_rows, i);
 }
 
-INLINE void store_quadratic(EdgeQuadratic q, int first, int elements, global host_scalar* blocks,
+INLINE void store_quadratic(EdgeQuadratic q, real target, int first, int elements, global host_scalar* blocks,
                             global host_scalar* sides, global host_scalar* targets) {
   blocks += 6 * first, sides += 3 * first;
   store_wide_entries(q.block.diagonal.x, blocks, 6, elements);
@@ -62,7 +62,7 @@ INLINE void store_quadratic(EdgeQuadratic q, int first, int elements, global hos
   store_wide_entries(q.side.x, sides, 3, elements);
   store_wide_entries(q.side.y, sides + 1, 3, elements);
   store_wide_entries(q.side.z, sides + 2, 3, elements);
-  store_host_entries(q.target, targets + first, 1, elements);
+  store_host_entries(target, targets + first, 1, elements);
 }
 
 INLINE EdgeSum side_of(Vec3 mapped, TriangleRow row, Vec3 edge) {
@@ -71,12 +71,13 @@ INLINE EdgeSum side_of(Vec3 mapped, TriangleRow row, Vec3 edge) {
 
 /// Edges. `beside`: their two triangles, or the one twice where there is one only or fit_crowded_edges sees to the
 /// others, and where one of them has the edge's length weight. `rest`: vector, unit vector between the opposite
-/// vertices, similarity weight, kept target length or 0. Sums: transform_normal, connect, similarity.
-kernel void fit_edges(const int items, const int count, const scalar normal_weight, const scalar scale,
-                      global const int* beside, global const scalar* rest, global const scalar* weights,
-                      global const host_scalar* transforms, global const scalar* triangle_rows,
-                      global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
-                      global scalar* sums) {
+/// vertices, similarity weight, kept target length or 0. `target_weights`: length weights of target lengths, for
+/// fit_triangles; they replace `weights` where `weighs_targets`. Sums: transform_normal, connect, similarity.
+kernel void fit_edges(const int items, const int count, const int weighs_targets, const scalar mean_edge_length,
+                      const scalar normal_weight, const scalar scale, global const int* beside,
+                      global const scalar* rest, global const scalar* weights, global const host_scalar* transforms,
+                      global const scalar* triangle_rows, global scalar* target_weights, global host_scalar* blocks,
+                      global host_scalar* sides, global host_scalar* targets, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
   const lane_index t = load_indices(beside, 3, 0, i), s = load_indices(beside, 3, 1, i);
@@ -87,12 +88,14 @@ kernel void fit_edges(const int items, const int count, const scalar normal_weig
   const EdgeSum sum = add_sides(side_of(apply3(transform, edge), gather_triangle(triangle_rows, t), edge),
                                 side_of(apply3(other, edge), gather_triangle(triangle_rows, s), edge));
   const real share = (real)0.5 + (real)0.5 * one_where(t != s);
-  const EdgeQuadratic q =
-      edge_quadratic(sum, (real)0.5 * sum.length, share, edge, gather(weights, load_indices(beside, 3, 2, i)),
-                     load_tile(rest, 8, 7, i), (real)normal_weight, (real)scale);
+  const real target = target_length((real)0.5 * sum.length, load_tile(rest, 8, 7, i), edge);
+  real weight = length_weight(target * target, (real)mean_edge_length);
+  store_lanes(weight, target_weights, i);
+  if (!weighs_targets) weight = gather(weights, load_indices(beside, 3, 2, i));
+  const EdgeQuadratic q = edge_quadratic(sum, share, edge, weight, target, (real)normal_weight, (real)scale);
   const real present = present_lanes(i, count), per_square = present / dot3(edge, edge);
   store_sums(i, sums, per_square * share * sum.turned, per_square * along, present * load_tile(rest, 8, 6, i) * across);
-  store_quadratic(q, LANES * i, elements_of(i, count), blocks, sides, targets);
+  store_quadratic(q, target, LANES * i, elements_of(i, count), blocks, sides, targets);
 }
 
 // Where more than two triangles meet: few, so that each is an item of its own (Context::program_alone).
@@ -100,12 +103,13 @@ kernel void fit_edges(const int items, const int count, const scalar normal_weig
 
 /// The few edges with more triangles: the item's at offsets[i] .. offsets[i + 1] of `beside`, the first of them summed
 /// by fit_edges. Terms: transform_normal.
-kernel void fit_crowded_edges(const int count, const scalar normal_weight, const scalar scale, global const int* edges,
+kernel void fit_crowded_edges(const int count, const int weighs_targets, const scalar mean_edge_length,
+                              const scalar normal_weight, const scalar scale, global const int* edges,
                               global const int* offsets, global const int* beside, global const scalar* rest,
                               global const int* weight_places, global const scalar* weights,
                               global const host_scalar* transforms, global const scalar* triangle_rows,
-                              global host_scalar* blocks, global host_scalar* sides, global host_scalar* targets,
-                              global scalar* terms) {
+                              global scalar* target_weights, global host_scalar* blocks, global host_scalar* sides,
+                              global host_scalar* targets, global scalar* terms) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int e = edges[i], first = offsets[i], last = offsets[i + 1];
@@ -118,9 +122,11 @@ kernel void fit_crowded_edges(const int count, const scalar normal_weight, const
     if (k == first) turned_by_first = sum.turned;
   }
   terms[i] = (sum.turned - turned_by_first) / dot3(edge, edge);
-  const EdgeQuadratic q = edge_quadratic(sum, sum.length / (real)(last - first), 1, edge, weights[weight_places[e]],
-                                         load_tile(rest, 8, 7, e), normal_weight, scale);
-  store_quadratic(q, e, 1, blocks, sides, targets);
+  const real target = target_length(sum.length / (real)(last - first), load_tile(rest, 8, 7, e), edge);
+  target_weights[e] = length_weight(target * target, mean_edge_length);
+  const real weight = weighs_targets ? target_weights[e] : weights[weight_places[e]];
+  store_quadratic(edge_quadratic(sum, 1, edge, weight, target, normal_weight, scale), target, e, 1, blocks, sides,
+                  targets);
 }
 
 /// Pairs of triangles that fit_edges does not see. `rest` as of its edges, in rows. Terms: connect, similarity, a row a
@@ -137,12 +143,20 @@ kernel void compare_pairs(const int count, global const int* pairs, global const
 }
 #endif
 
-/// Triangles. `corners`: their vertices. `rest`: their edges' vectors, and 1 over how many triangles each edge has.
-/// `weights`: length weights of their edges. Sums: transform, normal, scale.
-kernel void fit_triangles(const int items, const int count, const scalar regularizer_weight,
+/// Of edge k of a triangle: `weights` in tiles, or of its edges those that fit_edges left in `target_weights`.
+INLINE real weight_of_edge(int weighs_targets, global const int* edges, global const scalar* target_weights,
+                           global const scalar* weights, int k, int i) {
+  if (weighs_targets) return gather(target_weights, load_indices(edges, 3, k, i));
+  return load_tile(weights, 3, k, i);
+}
+
+/// Triangles. `corners`: their vertices. `edges`: their edges. `rest`: their edges' vectors, and 1 over how many
+/// triangles each edge has. `weights`: length weights of their edges. Sums: transform, normal, scale.
+kernel void fit_triangles(const int items, const int count, const int weighs_targets, const scalar regularizer_weight,
                           const scalar normal_regularizer_weight, const scalar mean_edge_length,
-                          global const int* corners, global const host_scalar* positions, global const scalar* residues,
-                          global const scalar* triangle_rows, global const scalar* rest, global const scalar* weights,
+                          global const int* corners, global const int* edges, global const host_scalar* positions,
+                          global const scalar* residues, global const scalar* triangle_rows, global const scalar* rest,
+                          global const scalar* target_weights, global const scalar* weights,
                           global scalar* next_weights, global host_scalar* right_hand_sides, global scalar* sums) {
   const int i = get_global_id(0);
   if (i >= items) return;
@@ -151,15 +165,17 @@ kernel void fit_triangles(const int items, const int count, const scalar regular
                                   load_indices(corners, 3, 2, i));
   const real mean = (real)mean_edge_length;
   TriangleTerms sum = no_edges(row.normal, (real)regularizer_weight, (real)normal_regularizer_weight);
-  sum = add_edge(sum, row.inverse, row.normal, now.first, load_tile3(rest, 12, 0, i), load_tile(weights, 3, 0, i),
-                 load_tile(rest, 12, 9, i), mean);
-  sum = add_edge(sum, row.inverse, row.normal, now.second, load_tile3(rest, 12, 3, i), load_tile(weights, 3, 1, i),
-                 load_tile(rest, 12, 10, i), mean);
-  sum = add_edge(sum, row.inverse, row.normal, now.third, load_tile3(rest, 12, 6, i), load_tile(weights, 3, 2, i),
-                 load_tile(rest, 12, 11, i), mean);
-  store_tile(length_weight(now.first, mean), next_weights, 3, 0, i);
-  store_tile(length_weight(now.second, mean), next_weights, 3, 1, i);
-  store_tile(length_weight(now.third, mean), next_weights, 3, 2, i);
+  sum = add_edge(sum, row.inverse, row.normal, now.first, load_tile3(rest, 12, 0, i),
+                 weight_of_edge(weighs_targets, edges, target_weights, weights, 0, i), load_tile(rest, 12, 9, i), mean);
+  sum =
+      add_edge(sum, row.inverse, row.normal, now.second, load_tile3(rest, 12, 3, i),
+               weight_of_edge(weighs_targets, edges, target_weights, weights, 1, i), load_tile(rest, 12, 10, i), mean);
+  sum =
+      add_edge(sum, row.inverse, row.normal, now.third, load_tile3(rest, 12, 6, i),
+               weight_of_edge(weighs_targets, edges, target_weights, weights, 2, i), load_tile(rest, 12, 11, i), mean);
+  store_tile(length_weight(dot3(now.first, now.first), mean), next_weights, 3, 0, i);
+  store_tile(length_weight(dot3(now.second, now.second), mean), next_weights, 3, 1, i);
+  store_tile(length_weight(dot3(now.third, now.third), mean), next_weights, 3, 2, i);
   const real present = present_lanes(i, count);
   store_sums(i, sums, present * sum.transform, present * sum.normal, present * sum.scale);
   store_host_rows9(sum.right_hand_side, right_hand_sides, i, count);

@@ -66,9 +66,10 @@ class OpenClTransform final : public TransformStep {
     targets_.lend(quadratics.target_lengths);
     invert_.launch(triangles_.items(), triangles_.count, maps_normals_, transforms_, triangle_rows_,
                    inverse_sums_.of_items());
-    fit_edges_.launch(edges_.items(), edges_.count, per_length(constants_.normal_weight),
-                      per_length(constants_.scale_weight), beside_, edge_rest_, weights(), transforms_, triangle_rows_,
-                      blocks_, sides_, targets_, edge_sums_.of_items());
+    fit_edges_.launch(edges_.items(), edges_.count, weighs_targets_, constants_.mean_edge_length,
+                      per_length(constants_.normal_weight), per_length(constants_.scale_weight), beside_, edge_rest_,
+                      weights(), transforms_, triangle_rows_, target_weights_, blocks_, sides_, targets_,
+                      edge_sums_.of_items());
     if (crowds_) launch_crowds();
     map_corners_.launch(round_.items(), round_.count, round_triangles_, corner_rest_, transforms_,
                         mapped_sums_.of_items());
@@ -86,10 +87,10 @@ class OpenClTransform final : public TransformStep {
     const Visit visit(queue_, {&positions_, &right_hand_sides_});
     show(positions);
     right_hand_sides_.lend(right_hand_sides);
-    fit_triangles_.launch(triangles_.items(), triangles_.count, constants_.regularizer_weight,
+    fit_triangles_.launch(triangles_.items(), triangles_.count, weighs_targets_, constants_.regularizer_weight,
                           constants_.normal_regularizer_weight, constants_.mean_edge_length, triangle_corners_,
-                          positions_, residues_, triangle_rows_, triangle_edges_, weights(), next_weights_,
-                          right_hand_sides_, triangle_sums_.of_items());
+                          edges_of_triangles_, positions_, residues_, triangle_rows_, triangle_edges_, target_weights_,
+                          weights(), next_weights_, right_hand_sides_, triangle_sums_.of_items());
     place_corners_.launch(round_.items(), round_.count, corners_, corner_rest_, positions_, residues_,
                           corner_sums_.of_items());
     for (Sums* sums : {&triangle_sums_, &corner_sums_}) sums->add_up();
@@ -110,12 +111,14 @@ class OpenClTransform final : public TransformStep {
                    rest.normal_regularizer_weight,
                    rest.transform_sphericity_factor},
         maps_normals_(rest.maps_normals ? 1 : 0),
+        weighs_targets_(rest.weighs_targets ? 1 : 0),
         vertices_(rest.vertices.rows()),
         triangles_{static_cast<int>(rest.triangles.rows()), queue.context->lanes("transform")},
         edges_{static_cast<int>(rest.edges.rows()), queue.context->lanes("transform")},
         round_{static_cast<int>(round.triangles.size()), queue.context->lanes("transform")},
         beside_(queue, edges_.tiles(beside(table))),
         triangle_corners_(queue, triangles_.tiles(rest.triangles)),
+        edges_of_triangles_(queue, triangles_.tiles(rest.triangle_edges)),
         round_triangles_(queue, round_.tiles(round.triangles)),
         corners_(queue, round_.tiles(round.corners)),
         edge_rest_(queue, edges_.tiles(table.rest)),
@@ -124,6 +127,7 @@ class OpenClTransform final : public TransformStep {
         initial_weights_(queue, triangles_.tiles(initial_weights(rest))),
         current_weights_(queue, initial_weights_.size()),
         next_weights_(queue, initial_weights_.size()),
+        target_weights_(queue, edges_.padded()),
         triangle_rows_(queue, 12 * triangles_.padded()),
         residues_(queue, needs_residues() ? rest.vertices.size() : 0),
         transforms_(queue, Index{9} * triangles_.count),
@@ -162,10 +166,10 @@ class OpenClTransform final : public TransformStep {
 
   void launch_crowds() {
     Crowds& c = *crowds_;
-    c.fit_crowded_edges.launch(c.edges.size(), per_length(constants_.normal_weight),
-                               per_length(constants_.scale_weight), c.edges, c.offsets, c.triangles, edge_rest_,
-                               c.weight_places, weights(), transforms_, triangle_rows_, blocks_, sides_, targets_,
-                               c.edge_terms);
+    c.fit_crowded_edges.launch(c.edges.size(), weighs_targets_, constants_.mean_edge_length,
+                               per_length(constants_.normal_weight), per_length(constants_.scale_weight), c.edges,
+                               c.offsets, c.triangles, edge_rest_, c.weight_places, weights(), transforms_,
+                               triangle_rows_, target_weights_, blocks_, sides_, targets_, c.edge_terms);
     c.compare_pairs.launch(c.pairs.size() / 2, c.pairs, c.pair_rest, transforms_, c.pair_terms);
   }
 
@@ -220,17 +224,17 @@ class OpenClTransform final : public TransformStep {
 
   Queue queue_;
   Constants constants_;
-  int maps_normals_;
+  int maps_normals_, weighs_targets_;
   Index vertices_;
   LaneItems triangles_, edges_, round_;
   Energy energy_;
 
   // The rest shape.
-  Ints beside_, triangle_corners_, round_triangles_, corners_;
+  Ints beside_, triangle_corners_, edges_of_triangles_, round_triangles_, corners_;
   Reals edge_rest_, triangle_edges_, corner_rest_;
   std::optional<Crowds> crowds_;
 
-  Reals initial_weights_, current_weights_, next_weights_;
+  Reals initial_weights_, current_weights_, next_weights_, target_weights_;
   bool placed_ = false;             // Whether current_weights_ stand in for the initial.
   Reals triangle_rows_, residues_;  // Of triangles, inverse and normal in a row.
   HostRows transforms_, blocks_, sides_, targets_, positions_, right_hand_sides_;

@@ -121,7 +121,7 @@ std::optional<Positions> place_by_multigrid(VertexSystem& vertices, const Transf
   ask(poll);
   const ElementGraph graph = vertex_graph(rest, quadratics, holds);
   ask(poll);
-  vertices.multilevel ? vertices.multilevel->refill(graph) : void(vertices.multilevel.emplace(graph, poll));
+  vertices.multilevel ? vertices.multilevel->refill(graph, poll) : void(vertices.multilevel.emplace(graph, poll));
   const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };
   Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(start.data(), start.size());
   const double near = vertices.solves++ < kFirst ? kNearVerticesAtFirst : kNearVertices;

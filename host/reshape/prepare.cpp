@@ -116,7 +116,7 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   rest.transform_normal_weight = weights.transform_normal;
   rest.regularizer_weight = weights.regularizer;
   rest.normal_regularizer_weight = weights.normal_regularizer;
-  rest.maps_normals = options.solver == ReshapeSolver::steady;
+  rest.maps_normals = rest.weighs_targets = options.solver == ReshapeSolver::steady;
   if (weights.sphericity > 0) rest.transform_sphericity_factor = weights.transform_sphericity / weights.sphericity;
   rest.sphericities.resize(rest.triangles.rows());
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {

@@ -41,10 +41,6 @@ Iterate begin(const ReshapePlan& plan, Workspace& work, const Gesture& gesture, 
   if (work.vertices.system.has_factor() != plan.vertices->system.has_factor())
     work.vertices = plan.vertices->unsolved();
   work.vertices.sphericity = plan.vertices->sphericity;
-  if (start.warm) {  // For the length weights.
-    work.step->fit_edges(iterate.transforms, iterate.quadratics);
-    work.step->fit_transforms(start.positions, iterate.right_hand_sides);
-  }
   return iterate;
 }
 
@@ -90,6 +86,7 @@ Positions next_start(Iterate& iterate, const Positions& start, const Positions& 
 
 void fit(const ReshapePlan& plan, Iterate& iterate, const Poll& poll) {
   const Stopwatch watch(iterate.seconds["transform_step"]);
+  ask(poll);
   if (plan.multilevel) {
     iterate.transforms = improved_transforms(*plan.multilevel, *iterate.work.coupling, iterate.right_hand_sides,
                                              iterate.transforms, poll);
@@ -167,7 +164,7 @@ ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const Reshape
 
 /// The published solver is never another, whatever rounds in another order.
 std::optional<Renumbered> renumbered(const ReshapeOptions& options, const Mesh& mesh) {
-  constexpr Eigen::Index kWorthwhile = 10'000;  // Vertices. Fewer are near each other in memory in any order.
+  constexpr Eigen::Index kWorthwhile = 1'000;  // Vertices. All of fewer are in the cache.
   if (options.solver == ReshapeSolver::published || mesh.positions.rows() < kWorthwhile) return std::nullopt;
   return Renumbered(mesh);
 }

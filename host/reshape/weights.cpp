@@ -42,6 +42,7 @@ double edge_length(double area) { return std::sqrt(4 / std::sqrt(3.0) * area / k
 
 ReshapeWeights ReshapeWeights::published() {
   ReshapeWeights weights;
+  weights.normal = 10;
   weights.regularizer = 1e-4;
   weights.normal_regularizer = 0;
   weights.handle = weights.straightness = 1e5;

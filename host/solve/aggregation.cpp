@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr size_t kWorthThreads = 100'000;  // Neighbours.
+
 /// How much a pair holds its elements together in the two directions in which it does most: across a sharp edge,
 /// surfaces stretch independently, and must not be merged before others.
 float strength(const PackedCoupling& c) {
@@ -28,7 +30,7 @@ Eigen::Index Couplings::find(Index element, int other) const {
          neighbours.begin();
 }
 
-Couplings couplings_of(const ElementGraph& graph) {
+Couplings couplings_of(const ElementGraph& graph, const Poll& poll) {
   const auto count = static_cast<size_t>(graph.own.rows());
   std::vector<int> ends(count + 1, 0);
   for (const auto& [i, j] : graph.pairs) {
@@ -45,13 +47,18 @@ Couplings couplings_of(const ElementGraph& graph) {
     entries[static_cast<size_t>(next[static_cast<size_t>(i)]++)] = {j, static_cast<int>(p)};
     entries[static_cast<size_t>(next[static_cast<size_t>(j)]++)] = {i, static_cast<int>(p)};
   }
+  ask(poll);
+#pragma omp parallel for schedule(static) if (entries.size() > kWorthThreads)
+  for (Index i = 0; i < static_cast<Index>(count); ++i) {
+    std::sort(entries.begin() + ends[static_cast<size_t>(i)], entries.begin() + ends[static_cast<size_t>(i) + 1]);
+  }
+  ask(poll);
   Couplings result;
   result.offsets.assign(1, 0);
   result.neighbours.reserve(entries.size());
   result.values.resize(static_cast<Index>(entries.size()), 6);
   Index filled = 0;
   for (size_t i = 0; i < count; ++i) {
-    std::sort(entries.begin() + ends[i], entries.begin() + ends[i + 1]);
     for (int k = ends[i]; k < ends[i + 1]; ++k) {
       const auto [j, p] = entries[static_cast<size_t>(k)];
       if (k == ends[i] || result.neighbours.back() != j) {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "cancel.h"
+
 namespace swage {
 
 /// Elements on a graph. The unknown of each is a matrix X of so many rows of three, and the system minimises
@@ -36,7 +38,7 @@ struct Couplings {
   Eigen::Index find(Eigen::Index element, int other) const;
 };
 
-Couplings couplings_of(const ElementGraph& graph);
+Couplings couplings_of(const ElementGraph& graph, const Poll& poll = {});
 
 struct Merge {
   std::vector<int> into;  // Of each element.

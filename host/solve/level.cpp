@@ -95,11 +95,12 @@ std::vector<std::pair<int, int>> Level::merge_into(std::vector<int> coarse,
   return coarse_list;
 }
 
-void Level::fill(const ElementGraph& graph) {
+void Level::fill(const ElementGraph& graph, const Poll& poll) {
 #pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
   for (Index t = 0; t < count; ++t) {
     for (Index k = 0; k < graph.own.cols(); ++k) own(t / kLanes, k, t % kLanes) = graph.own(t, k);
   }
+  ask(poll);
   values.set_zero();
   for (size_t p = 0; p < places.size(); ++p) {
     if (places[p][0] < 0) continue;
@@ -109,6 +110,7 @@ void Level::fill(const ElementGraph& graph) {
       }
     }
   }
+  ask(poll);
   rows == 1 ? invert<1>() : invert<3>();
 }
 

@@ -63,7 +63,7 @@ struct Level {
   /// `pairs` are this level's, `couplings` the next one's, whose pairs it returns.
   std::vector<std::pair<int, int>> merge_into(std::vector<int> coarse, const std::vector<std::pair<int, int>>& pairs,
                                               const Couplings& couplings);
-  void fill(const ElementGraph& graph);
+  void fill(const ElementGraph& graph, const Poll& poll = {});
   /// The sums on the next level, whose pairs stand there already.
   void coarsen(const ElementGraph& graph, ElementGraph& coarse) const;
 

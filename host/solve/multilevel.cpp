@@ -143,12 +143,12 @@ std::vector<std::pair<int, int>> couplings_apart(const ElementGraph& graph) {
 Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) : works_(std::make_unique<Pool<MultilevelWork>>()) {
   ElementGraph coarse, next;
   const ElementGraph* now = &graph;
-  Couplings couplings = couplings_of(graph);
+  Couplings couplings = couplings_of(graph, poll);
   while (now->own.rows() > kCoarsest) {
     ask(poll);
     auto level = std::make_unique<Level>(*now, couplings);
     ask(poll);
-    level->fill(*now);
+    level->fill(*now, poll);
     std::vector<int> into(static_cast<size_t>(level->count));
     std::iota(into.begin(), into.end(), 0);
     ElementGraph merging{now->rows, {}, {}, now->own};
@@ -158,7 +158,7 @@ Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) : works_(std
       merging = merged(couplings, merging.own, now->rows, merge);
       ask(poll);
       for (int& element : into) element = merge.into[static_cast<size_t>(element)];
-      couplings = couplings_of(merging);
+      couplings = couplings_of(merging, poll);
     }
     const bool stalls = merging.own.rows() > level->count * 3 / 4;
     next.pairs = level->merge_into(std::move(into), now->pairs, couplings);
@@ -173,11 +173,11 @@ Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) : works_(std
   fill(*coarsest_, *now);
 }
 
-void Multilevel::refill(const ElementGraph& graph) {
+void Multilevel::refill(const ElementGraph& graph, const Poll& poll) {
   ElementGraph coarse, next;
   const ElementGraph* now = &graph;
   for (size_t depth = 0; depth < levels_.size(); ++depth) {
-    levels_[depth]->fill(*now);
+    levels_[depth]->fill(*now, poll);
     next.pairs = pairs_[depth];
     levels_[depth]->coarsen(*now, next);
     std::swap(coarse, next);

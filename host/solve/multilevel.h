@@ -32,7 +32,7 @@ class Multilevel {
   Multilevel& operator=(Multilevel&&) noexcept;
 
   /// The same pairs with other values. Elements stay merged as they are. Not while another thread solves.
-  void refill(const ElementGraph& graph);
+  void refill(const ElementGraph& graph, const Poll& poll = {});
 
   /// About the solution of the graph's system: conjugate gradients in single precision, preconditioned by one cycle
   /// through the levels, leave `tolerance` of the error. May be called from several threads.

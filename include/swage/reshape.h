@@ -46,17 +46,17 @@ const char* to_string(LinearSolver solver);
 /// handle and regularizer above 0. The defaults are the steady solver's, which takes them as of a mesh of 10,000 equal
 /// triangles and scales them to the one given.
 struct ReshapeWeights {
-  double normal = 10;                ///< w_normal
+  double normal = 12;                ///< w_normal
   double similarity = 1;             ///< of E_similarity
   double connect = 1;                ///< of E_connect
   double sphericity = 1;             ///< of E_sphericity
   double scale = 1e-4;               ///< w_scale
   double regularizer = 1e-3;         ///< w_reg
   double normal_regularizer = 3e-3;  ///< Of |T n - n|², which the paper has not (host/reshape/steady.md).
-  double handle = 2.5e5;             ///< w_constr of E_pos
-  double straightness = 2.5e5;       ///< w_constr of E_straight
+  double handle = 4e5;               ///< w_constr of E_pos
+  double straightness = 4e5;         ///< w_constr of E_straight
 
-  /// The paper's: regularizer 1e-4, none of the normal's, handle and straightness 1e5.
+  /// The paper's: normal 10, regularizer 1e-4, none of the normal's, handle and straightness 1e5.
   static ReshapeWeights published();
 };
 

@@ -48,6 +48,8 @@ class TransformStep {
     double normal_regularizer_weight = 0;    ///< The same: of |T n - n|², which counts as part of the regularizer.
     bool maps_normals = false;               ///< Whether what the vertex step inverts takes a triangle's normal to its
                                              ///< image's, as long as the image's mean stretch, wherever T takes it.
+    bool weighs_targets = false;             ///< Whether length weights are those of target lengths, whatever length
+                                             ///< edges were last placed with. `length_weights` are then unread.
     double transform_sphericity_factor = 1;  ///< Times the sphericity weight: of the transform step.
   };
 
@@ -75,7 +77,8 @@ class TransformStep {
   virtual void fit_edges(const Transforms& transforms, EdgeQuadratics& quadratics) = 0;
 
   /// Gives the right-hand sides of the transform step (#T × 9) and the energy of the positions with the transforms
-  /// kept, under the length weights they were placed with. Then takes new length weights from the positions.
+  /// kept, under the length weights they were placed with. Then takes new length weights from the positions, unless
+  /// those are of target lengths.
   virtual Energy fit_transforms(const Positions& positions, Transforms& right_hand_sides) = 0;
 };
 

@@ -47,9 +47,16 @@ static inline Inverse damped_inverse(Mat3 a) {
   return inverse;
 }
 
-/// Eq. 6.
-static inline real length_weight(Vec3 edge, real mean_edge_length) {
-  return larger_of((real)1, dot3(edge, edge) / (mean_edge_length * mean_edge_length));
+/// Eq. 6 of a squared length.
+static inline real length_weight(real squared, real mean_edge_length) {
+  return larger_of((real)1, squared / (mean_edge_length * mean_edge_length));
+}
+
+/// `mean` is of the lengths by the triangles beside the edge; `kept` replaces it where it is not 0.
+static inline real target_length(real mean, real kept, Vec3 rest) {
+  // A transform that flattens an edge must not make its terms infinite.
+  const real fitted = larger_of(mean, (real)1e-9 * sqrt(dot3(rest, rest)));
+  return kept > (real)0 ? kept : fitted;
 }
 
 /// What the triangles beside an edge bring to its quadratic, and `turned`, eq. 26 times the edge's squared length.
@@ -96,23 +103,18 @@ static inline EdgeSum add_sides(EdgeSum a, EdgeSum b) {
 typedef struct {
   WideSymmetric block;
   WideVec3 side;
-  real target;
 } EdgeQuadratic;
 
-/// Eqs. 20, 21 and 34. `mean` is of the sides' lengths, `share` what part of their sum counts (a half where the only
-/// side was summed twice); `kept` the target length, or 0 for the transforms'; `scale` and `normal_weight` are divided
-/// by the mean edge length.
-static inline EdgeQuadratic edge_quadratic(EdgeSum sum, real mean, real share, Vec3 rest, real weight, real kept,
+/// Eqs. 20, 21 and 34. `share` is what part of the sides' sum counts (a half where the only side was summed twice);
+/// `scale` and `normal_weight` are divided by the mean edge length.
+static inline EdgeQuadratic edge_quadratic(EdgeSum sum, real share, Vec3 rest, real weight, real target,
                                            real normal_weight, real scale) {
   const real squared = dot3(rest, rest), length = sqrt(squared), along = share * weight / squared;
-  // A transform that flattens an edge must not make its terms infinite.
-  const real fitted = larger_of(mean, (real)1e-9 * length), target = kept > (real)0 ? kept : fitted;
   const real across = share * normal_weight * weight * length / (target * target);
   EdgeQuadratic quadratic;
   const Symmetric others = add_symmetric(diagonal3(scale), scale_symmetric(across, sum.normals));
   quadratic.block = add_wide_symmetric(wide_symmetric(others), scale_wide_symmetric(to_wide(along), sum.grams));
   quadratic.side = add_wide3(wide3(scale3(scale, rest)), scale_wide3(to_wide(along), sum.side));
-  quadratic.target = target;
   return quadratic;
 }
 

@@ -227,12 +227,13 @@ TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
     const Lists::Range beside = edges.triangles[e];
     const in_single::EdgeSum sum = in_single::add_sides(side(beside[0]), side(beside[1]));
     const double weight = std::max(1.0, vector.squaredNorm() / (rest.mean_edge_length * rest.mean_edge_length));
-    const in_single::EdgeQuadratic expected = in_single::edge_quadratic(
-        sum, sum.length / 2, 1, single3(vector), static_cast<float>(weight), 0, normal_weight, scale);
+    const float target = in_single::target_length(sum.length / 2, 0, single3(vector));
+    const in_single::EdgeQuadratic expected =
+        in_single::edge_quadratic(sum, 1, single3(vector), static_cast<float>(weight), target, normal_weight, scale);
     const auto& [diagonal, mixed] = expected.block;
     const Eigen::Matrix<double, 1, 6> block{diagonal.x, mixed.x, mixed.y, diagonal.y, mixed.z, diagonal.z};
     EXPECT_EQ(quadratics.blocks.row(e), block) << "edge " << e;
-    EXPECT_EQ(quadratics.target_lengths[e], static_cast<double>(expected.target)) << "edge " << e;
+    EXPECT_EQ(quadratics.target_lengths[e], static_cast<double>(target)) << "edge " << e;
   }
 }
 

@@ -95,6 +95,33 @@ TEST(TransformStep, WithMappedNormalsTheirImagesDoNotMatter) {
   EXPECT_GT((plain.blocks - same_stretch.blocks).norm(), 0.01 * plain.blocks.norm());
 }
 
+// Stretched just as the transforms say, edges have the same weights by either rule; but those of targets wait for no
+// positions, and no positions change them.
+TEST(TransformStep, WeightsOfTargetLengthsAreThoseOfEdgesThatReachedThem) {
+  TransformStep::Rest rest = rest_of(test::box({1, 2, 0.5}, 3));
+  ASSERT_TRUE(rest.weighs_targets);
+  const Eigen::Matrix3d stretch = Eigen::Vector3d(2, 3, 1.5).asDiagonal();
+  const Transforms transforms = same(stretch, rest.triangles.rows());
+  const Positions stretched = rest.vertices * stretch;
+  const auto by_targets = cpu_backend()->transform(rest);
+  rest.weighs_targets = false;
+  const auto by_lengths = cpu_backend()->transform(rest);
+  TransformStep::EdgeQuadratics targets, lengths;
+  Transforms sides;
+  by_lengths->fit_edges(transforms, lengths);
+  by_targets->fit_edges(transforms, targets);
+  EXPECT_GT((targets.blocks - lengths.blocks).norm(), 0.1 * lengths.blocks.norm());
+
+  by_lengths->fit_transforms(stretched, sides);
+  by_lengths->fit_edges(transforms, lengths);
+  EXPECT_LT((targets.blocks - lengths.blocks).norm(), 1e-12 * lengths.blocks.norm());
+  EXPECT_LT((targets.right_hand_sides - lengths.right_hand_sides).norm(), 1e-12 * lengths.right_hand_sides.norm());
+  const double energy = by_lengths->fit_transforms(5 * stretched, sides).transform;
+  EXPECT_NEAR(by_targets->fit_transforms(5 * stretched, sides).transform, energy, 1e-12 * energy);
+  by_targets->fit_edges(transforms, lengths);
+  EXPECT_EQ(lengths.blocks, targets.blocks);
+}
+
 TEST(TransformStep, NoTrianglesGiveNothing) {
   const TransformStep::Rest rest = rest_of({Positions::Zero(1, 3), Triangles(0, 3)});
   const auto step = cpu_backend()->transform(rest);

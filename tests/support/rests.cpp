@@ -59,6 +59,7 @@ std::vector<std::pair<std::string, TransformStep::Rest>> rest_families() {
           {"flat, with boundary", rest_of(sheet(20))},
           {"needles", rest_of(stretched(sheet(20), {1, 1e-3, 1}))},
           {"five triangles at an edge", rest_of(fan())},
+          {"five triangles at an edge, steady", rest_of(fan(), 2, ReshapeSolver::steady)},
           {"one triangle", rest_of(triangle)},
           {"random", rest_of(random_shape())},
           {"none", none()},
