@@ -123,7 +123,7 @@ class CpuTransform final : public TransformStep {
 
   /// What the vertex step inverts of a triangle's transform.
   Matrix3d inverted(Eigen::Index t) const {
-    const Matrix3d transform = matrix(transforms_, t);
+    Matrix3d transform = matrix(transforms_, t);
     if (!rest_.maps_normals) return transform;
     const Vector3d normal = rest_.normals.row(t);
     const Vector3d along = normal[0] * transform.col(1).cross(transform.col(2)) +

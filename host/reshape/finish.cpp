@@ -125,16 +125,21 @@ std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& 
   const std::vector<int> zone = dimple_zone(iterate.handles, plan.rest, normals);
   if (std::all_of(zone.begin(), zone.end(), [](int ring) { return ring == 0; })) return std::nullopt;
 
+  ask(poll);
   const TransformStep::Rest rest = finishing_rest(plan, iterate, zone, positions, normals);
+  ask(poll);
   TransformStep::EdgeQuadratics quadratics;
   plan.options.backend->transform(rest)->fit_edges(rigid_outside(zone, iterate.transforms), quadratics);
+  ask(poll);
   Holds handles = iterate.handles;
   handles.weight =
       plan.options.solver == ReshapeSolver::published ? kPublishedHandleWeight : kLetGo * plan.weights.handle;
   const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
+  ask(poll);
   VertexSystem& vertices = iterate.work.vertices;
   vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
   vertices.system.forget_factor();  // Of another problem.
+  ask(poll);
   return place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness, {handles, outside},
                         positions, poll);
 }
