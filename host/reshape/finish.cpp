@@ -70,15 +70,17 @@ std::vector<char> edges_inside(const std::vector<int>& zone, const TransformStep
 }
 
 /// The rest shape of the finishing step: the output's outside the zone, blended in its normals inside. Length weights
-/// are those of the last pass.
+/// are those of the last pass; the steady solver's inside those of the rest lengths, which are the targets there.
 TransformStep::Rest finishing_rest(const ReshapePlan& plan, const Iterate& iterate, const std::vector<int>& zone,
                                    const Positions& positions, const Positions& normals) {
   TransformStep::Rest rest = plan.rest;
   const std::vector<char> inside = edges_inside(zone, rest);
   const Positions vectors = edge_vectors(positions, plan.edges);
   rest.target_lengths = iterate.quadratics.target_lengths;
-  const Positions before = edge_vectors(iterate.before, plan.edges) / rest.mean_edge_length;
-  rest.length_weights = before.rowwise().squaredNorm().cwiseMax(1);  // Eq. 6
+  if (!rest.weighs_targets) {
+    const Positions before = edge_vectors(iterate.before, plan.edges) / rest.mean_edge_length;
+    rest.length_weights = before.rowwise().squaredNorm().cwiseMax(1);  // Eq. 6
+  }
   for (Eigen::Index e = 0; e < rest.edges.rows(); ++e) {
     if (inside[static_cast<size_t>(e)]) {
       rest.target_lengths[e] = rest.edge_vectors.row(e).norm();

@@ -104,7 +104,7 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
             place_by_multigrid(vertices, rest, quadratics, straight, straightness_weight, holds, start, poll)) {
       return *placed;
     }
-    vertices = vertex_system(rest, straight);
+    vertices = vertex_system(rest, straight, {}, poll);
   }
   const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
   ask(poll);

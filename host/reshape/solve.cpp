@@ -171,7 +171,7 @@ std::optional<Renumbered> renumbered(const ReshapeOptions& options, const Mesh& 
 
 /// What `call` returns; where it throws for an element, that as the caller numbers it.
 template <typename Call>
-auto as_given(const ReshapePlan& plan, const Call& call) {
+auto in_given_numbers(const ReshapePlan& plan, const Call& call) {
   try {
     return call();
   } catch (const Indefinite& error) {
@@ -187,7 +187,7 @@ ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const Re
   const Mesh& given = plan.renumbered ? plan.renumbered->given() : plan.mesh;
   check(gesture, given.positions, given.triangles);
   if (start) check_start(*start, plan.options, given);
-  return as_given(plan, [&] {
+  return in_given_numbers(plan, [&] {
     if (!plan.renumbered) return solve(plan, gesture, start, progress);
     std::optional<ReshapeResult> from;
     if (start) from = plan.renumbered->into(*start);
@@ -224,7 +224,7 @@ Reshape::Reshape(Reshape&&) noexcept = default;
 Reshape& Reshape::operator=(Reshape&&) noexcept = default;
 
 bool Reshape::prepare(const ProgressFn& progress) {
-  return as_given(*plan_, [&] { return swage::prepare(*plan_, progress); });
+  return in_given_numbers(*plan_, [&] { return swage::prepare(*plan_, progress); });
 }
 
 ReshapeResult Reshape::solve(const Gesture& gesture, const ProgressFn& progress) {

@@ -17,7 +17,8 @@ struct Progress {
   double energy = 0;    ///< After the last pass; 0 before the first.
 };
 
-/// Called between stages and passes, and every few tenths of a second within long ones, from the calling thread.
+/// Called between stages and passes, and every few tenths of a second within long ones (at a million triangles about
+/// every second on two cores), from the calling thread.
 /// Returning false cancels: the call ends with the last complete iterate.
 using ProgressFn = std::function<bool(const Progress&)>;
 

@@ -124,6 +124,7 @@ TEST(CoarseStart, GoesToTheSameFixedPoint) {
   EXPECT_EQ(fine.report.paths.at("start"), "rest: no coarse start asked for");
   EXPECT_LT(apart(mesh, coarse, fine), 0.05);
   EXPECT_EQ(coarse.report.stop, Termination::moved_little);
+  EXPECT_LE(coarse.report.passes, 2 * fine.report.passes);  // More on a smooth shape such as this.
 }
 
 TEST(CoarseStart, IsCancelled) {
