@@ -12,8 +12,8 @@ class CpuBackend final : public Backend {
   std::string device() const override { return "host"; }
   std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const override { return cpu_rotation(rest); }
   std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const override { return cpu_similarity(rest); }
-  std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const override {
-    return cpu_transform(rest);
+  std::unique_ptr<TransformStep> transform(std::shared_ptr<const TransformStep::Rest> rest) const override {
+    return cpu_transform(std::move(rest));
   }
   std::unique_ptr<CouplingStep> coupling(const TransformStep::Rest& rest) const override { return cpu_coupling(rest); }
   std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const override {

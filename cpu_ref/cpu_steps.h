@@ -9,7 +9,7 @@ namespace swage {
 
 std::unique_ptr<RotationStep> cpu_rotation(const PairsRest& rest);
 std::unique_ptr<SimilarityStep> cpu_similarity(const PairsRest& rest);
-std::unique_ptr<TransformStep> cpu_transform(const TransformStep::Rest& rest);
+std::unique_ptr<TransformStep> cpu_transform(std::shared_ptr<const TransformStep::Rest> rest);
 std::unique_ptr<CouplingStep> cpu_coupling(const TransformStep::Rest& rest);
 std::unique_ptr<CurvatureStep> cpu_curvature(const CurvatureStep::Rest& rest);
 

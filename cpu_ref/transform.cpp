@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "cpu_steps.h"
@@ -47,11 +49,12 @@ Inverse inverse(const Matrix3d& transform) {
 
 class CpuTransform final : public TransformStep {
  public:
-  explicit CpuTransform(const Rest& rest)
-      : rest_(rest),
-        rest_lengths_(rest.edge_vectors.rowwise().norm()),
-        transforms_(rest.triangles.rows(), 9),
-        inverses_(rest.triangles.rows(), 9) {
+  explicit CpuTransform(std::shared_ptr<const Rest> rest)
+      : shared_rest_(std::move(rest)),
+        rest_(*shared_rest_),
+        rest_lengths_(rest_.edge_vectors.rowwise().norm()),
+        transforms_(rest_.triangles.rows(), 9),
+        inverses_(rest_.triangles.rows(), 9) {
     list_triangles_of_edges();
     CpuTransform::reset();
   }
@@ -104,10 +107,21 @@ class CpuTransform final : public TransformStep {
   }
 
   void list_triangles_of_edges() {
-    triangles_of_edges_.resize(static_cast<size_t>(rest_.edges.rows()));
-    for (Eigen::Index t = 0; t < rest_.triangles.rows(); ++t) {
-      for (int k = 0; k < 3; ++k) triangles_of_edges_[static_cast<size_t>(rest_.triangle_edges(t, k))].push_back(t);
+    first_triangles_.resize(static_cast<size_t>(rest_.edges.rows()) + 1);
+    for (const int e : rest_.triangle_edges.reshaped()) ++first_triangles_[static_cast<size_t>(e) + 1];
+    std::partial_sum(first_triangles_.begin(), first_triangles_.end(), first_triangles_.begin());
+    triangles_of_edges_.resize(static_cast<size_t>(rest_.triangle_edges.size()));
+    std::vector<int> next(first_triangles_.begin(), first_triangles_.end() - 1);
+    for (int t = 0; t < rest_.triangles.rows(); ++t) {
+      for (const int e : rest_.triangle_edges.row(t)) {
+        triangles_of_edges_[static_cast<size_t>(next[static_cast<size_t>(e)]++)] = t;
+      }
     }
+  }
+
+  std::span<const int> triangles_beside(Eigen::Index e) const {
+    const int first = first_triangles_[static_cast<size_t>(e)], end = first_triangles_[static_cast<size_t>(e) + 1];
+    return std::span(triangles_of_edges_).subspan(static_cast<size_t>(first), static_cast<size_t>(end - first));
   }
 
   void invert(EdgeQuadratics& quadratics) {
@@ -135,9 +149,9 @@ class CpuTransform final : public TransformStep {
 
   double target_length(Eigen::Index e) const {
     if (rest_.target_lengths.size() != 0) return rest_.target_lengths[e];
-    const std::vector<Eigen::Index>& beside = triangles_of_edges_[static_cast<size_t>(e)];
+    const std::span<const int> beside = triangles_beside(e);
     double sum = 0;
-    for (const Eigen::Index t : beside) sum += (matrix(transforms_, t) * rest_.edge_vectors.row(e).transpose()).norm();
+    for (const int t : beside) sum += (matrix(transforms_, t) * rest_.edge_vectors.row(e).transpose()).norm();
     // A transform that flattens an edge must not make its terms infinite.
     return std::max(sum / static_cast<double>(beside.size()), 1e-9 * rest_lengths_[e]);
   }
@@ -149,7 +163,7 @@ class CpuTransform final : public TransformStep {
     const double scale = rest_.scale_weight / rest_.mean_edge_length;
     Matrix3d block = scale * Matrix3d::Identity();
     Vector3d side = scale * rest_vector;
-    for (const Eigen::Index t : triangles_of_edges_[static_cast<size_t>(e)]) {
+    for (const int t : triangles_beside(e)) {
       const Matrix3d inverse = matrix(inverses_, t);
       const Vector3d normal = rest_.normals.row(t);
       block += weight / (rest_length * rest_length) * inverse.transpose() * inverse;
@@ -280,8 +294,9 @@ class CpuTransform final : public TransformStep {
     return total;
   }
 
-  Rest rest_;
-  std::vector<std::vector<Eigen::Index>> triangles_of_edges_;
+  std::shared_ptr<const Rest> shared_rest_;
+  const Rest& rest_;
+  std::vector<int> first_triangles_, triangles_of_edges_;
   Eigen::VectorXd rest_lengths_;
   Eigen::VectorXd length_weights_;
   Transforms transforms_;
@@ -291,8 +306,8 @@ class CpuTransform final : public TransformStep {
 
 }  // namespace
 
-std::unique_ptr<TransformStep> cpu_transform(const TransformStep::Rest& rest) {
-  return std::make_unique<CpuTransform>(rest);
+std::unique_ptr<TransformStep> cpu_transform(std::shared_ptr<const TransformStep::Rest> rest) {
+  return std::make_unique<CpuTransform>(std::move(rest));
 }
 
 }  // namespace swage

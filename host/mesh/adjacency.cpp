@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace swage {
@@ -22,39 +21,38 @@ Lists lists_from(int count, const std::vector<std::pair<int, int>>& pairs) {
 }
 
 Edges edges_of(const Triangles& triangles) {
-  struct Side {
-    int first, second, triangle, corner;
+  const auto ends = [&triangles](int side) {
+    return std::minmax({triangles.data()[side], triangles.data()[side % 3 == 2 ? side - 2 : side + 1]});
   };
-  std::vector<Side> sides;
-  sides.reserve(static_cast<size_t>(triangles.size()));
-  for (int t = 0; t < triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [first, second] = std::minmax({triangles(t, k), triangles(t, (k + 1) % 3)});
-      sides.push_back({first, second, t, k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.first, a.second, a.triangle, a.corner) < std::tie(b.first, b.second, b.triangle, b.corner);
-  });
+  std::vector<std::pair<int, int>> pairs;  // Lower end of a side, and the side: corner k of triangle t is 3t + k.
+  pairs.reserve(static_cast<size_t>(triangles.size()));
+  for (int side = 0; side < triangles.size(); ++side) pairs.emplace_back(ends(side).first, side);
+  const int vertex_count = triangles.size() == 0 ? 0 : triangles.maxCoeff() + 1;
+  Lists sides = lists_from(vertex_count, pairs);
 
   Edges edges;
   edges.triangle_edges.resize(triangles.rows(), 3);
-  std::vector<std::pair<int, int>> beside;
-  beside.reserve(sides.size());
+  edges.triangles.items.reserve(sides.items.size());
   std::vector<std::array<int, 2>> vertices;
-  for (const Side& side : sides) {
-    if (vertices.empty() || vertices.back() != std::array{side.first, side.second}) {
-      vertices.push_back({side.first, side.second});
+  for (int v = 0; v < vertex_count; ++v) {
+    const auto first = sides.items.begin() + sides.offsets[static_cast<size_t>(v)];
+    const auto last = sides.items.begin() + sides.offsets[static_cast<size_t>(v) + 1];
+    std::sort(first, last, [&](int a, int b) { return std::pair(ends(a).second, a) < std::pair(ends(b).second, b); });
+    for (auto side = first; side != last; ++side) {
+      const std::array<int, 2> both{v, ends(*side).second};
+      if (vertices.empty() || vertices.back() != both) {
+        vertices.push_back(both);
+        edges.triangles.offsets.push_back(static_cast<int>(edges.triangles.items.size()));
+      }
+      edges.triangle_edges.data()[*side] = static_cast<int>(vertices.size()) - 1;
+      edges.triangles.items.push_back(*side / 3);
     }
-    const int edge = static_cast<int>(vertices.size()) - 1;
-    edges.triangle_edges(side.triangle, side.corner) = edge;
-    beside.emplace_back(edge, side.triangle);
   }
+  edges.triangles.offsets.push_back(static_cast<int>(edges.triangles.items.size()));
   edges.vertices.resize(static_cast<Eigen::Index>(vertices.size()), 2);
   for (size_t e = 0; e < vertices.size(); ++e) {
     edges.vertices.row(static_cast<Eigen::Index>(e)) << vertices[e][0], vertices[e][1];
   }
-  edges.triangles = lists_from(static_cast<int>(vertices.size()), beside);
   return edges;
 }
 

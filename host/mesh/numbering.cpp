@@ -4,12 +4,12 @@
 #include <numeric>
 #include <utility>
 
-#include "adjacency.h"
-
 namespace swage {
 
-Numbering by_neighbourhood(const Triangles& triangles, int vertex_count) {
-  const Lists ring = one_rings(edges_of(triangles), vertex_count);
+Numbering by_neighbourhood(const Mesh& mesh, const Edges& edges) {
+  const Triangles& triangles = mesh.triangles;
+  const auto vertex_count = static_cast<int>(mesh.positions.rows());
+  const Lists ring = one_rings(edges, vertex_count);
   Numbering numbering;
   std::vector<int>& walk = numbering.vertices;
   std::vector<char> met(static_cast<size_t>(vertex_count), 0);

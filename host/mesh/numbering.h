@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "adjacency.h"
 #include "swage/mesh.h"
 
 namespace swage {
@@ -13,7 +14,7 @@ struct Numbering {
 
 /// Vertices as a breadth-first walk along edges meets them, from the first of each component on; triangles by their
 /// first vertices.
-Numbering by_neighbourhood(const Triangles& triangles, int vertex_count);
+Numbering by_neighbourhood(const Mesh& mesh, const Edges& edges);
 
 /// Of each number its place, from the number of each place.
 std::vector<int> inverse(const std::vector<int>& numbers);

@@ -23,8 +23,8 @@ class OpenClBackend final : public Backend {
   std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const override {
     return opencl_similarity(context_, rest);
   }
-  std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const override {
-    return opencl_transform(context_, rest);
+  std::unique_ptr<TransformStep> transform(std::shared_ptr<const TransformStep::Rest> rest) const override {
+    return opencl_transform(context_, *rest);
   }
   std::unique_ptr<CouplingStep> coupling(const TransformStep::Rest& rest) const override {
     return opencl_coupling(context_, rest);

@@ -102,7 +102,7 @@ std::optional<Transforms> coarse_transforms(const CoarsePlan& coarse, const Resh
   try {
     const ReshapeResult result = coarse.reshape->solve(handles, told);
     if (result.report.stop == Termination::cancelled) return std::nullopt;
-    return smoothed(result.transforms(coarse.proxy.triangle_of, Eigen::all), plan.rest.pairs);
+    return smoothed(result.transforms(coarse.proxy.triangle_of, Eigen::all), plan.rest->pairs);
   } catch (const Unsolvable&) {
     return identities(plan.mesh.triangles.rows());
   }

@@ -73,7 +73,7 @@ std::vector<char> edges_inside(const std::vector<int>& zone, const TransformStep
 /// are those of the last pass; the steady solver's inside those of the rest lengths, which are the targets there.
 TransformStep::Rest finishing_rest(const ReshapePlan& plan, const Iterate& iterate, const std::vector<int>& zone,
                                    const Positions& positions, const Positions& normals) {
-  TransformStep::Rest rest = plan.rest;
+  TransformStep::Rest rest = *plan.rest;
   const std::vector<char> inside = edges_inside(zone, rest);
   const Positions vectors = edge_vectors(positions, plan.edges);
   rest.target_lengths = iterate.quadratics.target_lengths;
@@ -119,19 +119,28 @@ Transforms rigid_outside(const std::vector<int>& zone, const Transforms& transfo
   return result;
 }
 
+void fit(const Backend& backend, std::shared_ptr<const TransformStep::Rest> rest, const Transforms& transforms,
+         TransformStep::EdgeQuadratics& quadratics, const Poll& poll) {
+  ask(poll);
+  const std::unique_ptr<TransformStep> step = backend.transform(std::move(rest));
+  ask(poll);
+  step->fit_edges(transforms, quadratics);
+}
+
 }  // namespace
 
-std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions,
+std::optional<Positions> spread_dimples(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
                                         const Poll& poll) {
-  const Positions normals = unit_normals(positions, plan.rest.triangles);
-  const std::vector<int> zone = dimple_zone(iterate.handles, plan.rest, normals);
+  const Positions normals = unit_normals(positions, plan.rest->triangles);
+  const std::vector<int> zone = dimple_zone(iterate.handles, *plan.rest, normals);
   if (std::all_of(zone.begin(), zone.end(), [](int ring) { return ring == 0; })) return std::nullopt;
 
   ask(poll);
-  const TransformStep::Rest rest = finishing_rest(plan, iterate, zone, positions, normals);
+  const auto shared =
+      std::make_shared<const TransformStep::Rest>(finishing_rest(plan, iterate, zone, positions, normals));
+  const TransformStep::Rest& rest = *shared;
   ask(poll);
-  TransformStep::EdgeQuadratics quadratics;
-  plan.options.backend->transform(rest)->fit_edges(rigid_outside(zone, iterate.transforms), quadratics);
+  fit(*plan.options.backend, shared, rigid_outside(zone, iterate.transforms), iterate.quadratics, poll);
   ask(poll);
   Holds handles = iterate.handles;
   handles.weight =
@@ -139,11 +148,11 @@ std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& 
   const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
   ask(poll);
   VertexSystem& vertices = iterate.work.vertices;
-  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
+  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest, poll));
   vertices.system.forget_factor();  // Of another problem.
   ask(poll);
-  return place_vertices(vertices, rest, quadratics, plan.straight, plan.weights.straightness, {handles, outside},
-                        positions, poll);
+  return place_vertices(vertices, rest, iterate.quadratics, plan.straight, plan.weights.straightness,
+                        {handles, outside}, positions, poll);
 }
 
 }  // namespace swage

@@ -63,8 +63,9 @@ void add_holds(Quadratic& quadratic, const Holds& holds) {
 
 }  // namespace
 
-Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest) {
+Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest, const Poll& poll) {
   system.set_zero();
+  ask(poll);
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
     if (rest.sphericities[t] == 0) continue;
     for (const Corner& corner : corners(rest, t)) {
@@ -79,6 +80,7 @@ Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest
       }
     }
   }
+  ask(poll);
   return system.values();
 }
 

@@ -20,12 +20,12 @@ std::optional<FactorKind> vertex_factor_kind(const ReshapePlan& plan) {
 
 void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
   if (plan.paths.transforms == LinearSolver::multigrid) {
-    const ElementGraph graph = transform_graph(plan.rest);
+    const ElementGraph graph = transform_graph(*plan.rest);
     poll();
     plan.multilevel.emplace(graph, poll);
     return;
   }
-  BlockSystem transforms = transform_system(plan.rest, factor_kind(plan.options));
+  BlockSystem transforms = transform_system(*plan.rest, factor_kind(plan.options));
   poll();
   transforms.factor();
   if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
@@ -35,10 +35,10 @@ void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
 /// Tried on the way back to rest from twice the size.
 bool multigrid_suits(const ReshapePlan& plan, Workspace& work, const Poll& poll) {
   TransformStep::EdgeQuadratics quadratics;
-  work.step->fit_edges(identities(plan.rest.triangles.rows()), quadratics);
-  const Holds hold{{0}, plan.rest.vertices.topRows(1), plan.weights.handle};
-  return place_by_multigrid(work.vertices, plan.rest, quadratics, plan.straight, plan.weights.straightness, {hold},
-                            2 * plan.rest.vertices, poll)
+  work.step->fit_edges(identities(plan.rest->triangles.rows()), quadratics);
+  const Holds hold{{0}, plan.rest->vertices.topRows(1), plan.weights.handle};
+  return place_by_multigrid(work.vertices, *plan.rest, quadratics, plan.straight, plan.weights.straightness, {hold},
+                            2 * plan.rest->vertices, poll)
       .has_value();
 }
 
@@ -59,11 +59,11 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
                                     : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
   poll();
   plan.weights = step_weights(plan.options, unit_mesh);
-  plan.rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
+  plan.rest = std::make_shared<const TransformStep::Rest>(rest_shape(plan.options, unit_mesh, plan.edges, curvatures));
   plan.paths =
       choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.straight.empty());
   begin("order", 0.2);
-  plan.vertices = vertex_system(plan.rest, plan.straight, vertex_factor_kind(plan), poll);
+  plan.vertices = vertex_system(*plan.rest, plan.straight, vertex_factor_kind(plan), poll);
   begin("factor", 0.4);
   factor_or_coarsen(plan, poll);
   begin("coarse", 0.8);
@@ -76,7 +76,7 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
       !multigrid_suits(plan, *first, poll)) {
     plan.paths.vertices = LinearSolver::factor;
     plan.paths.why_vertices = "multigrid is slow on these triangles";
-    plan.vertices = vertex_system(plan.rest, plan.straight, factor_kind(plan.options), poll);
+    plan.vertices = vertex_system(*plan.rest, plan.straight, factor_kind(plan.options), poll);
     first->vertices = plan.vertices->unsolved();
   }
   plan.prepared = true;
@@ -89,7 +89,7 @@ std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll) 
   ask(poll);
   auto work = std::make_unique<Workspace>(Workspace{std::move(step), plan.vertices->unsolved(), {}, {}});
   ask(poll);
-  if (plan.multilevel) work->coupling = plan.options.backend->coupling(plan.rest);
+  if (plan.multilevel) work->coupling = plan.options.backend->coupling(*plan.rest);
   if (plan.options.refactor_every_pass) work->transforms = plan.transforms->unfactored();
   return work;
 }

@@ -88,7 +88,7 @@ struct ReshapePlan {
 
   // Filled by prepare().
   StepWeights weights = {};
-  TransformStep::Rest rest = {};
+  std::shared_ptr<const TransformStep::Rest> rest = {};
   std::optional<VertexSystem> vertices = {};  ///< Never factored: workspaces have copies.
   Paths paths = {};
   std::optional<BlockSystem> transforms = {};  ///< Factored, where it is to be.
@@ -158,7 +158,7 @@ BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<Fact
 
 // global.cpp
 /// The sphericity term as values of the vertex step's matrix.
-Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest);
+Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest, const Poll& poll = {});
 /// The vertex step's quadratic x' A x - 2 b' x (eq. 23 with section 4's terms): A into the system; returns b.
 Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest,
                          const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
@@ -197,7 +197,7 @@ double sum(const std::map<std::string, double>& terms);
 
 // finish.cpp
 /// Where a handle sits in a dimple, the positions with its error spread over the rings around (appendix A).
-std::optional<Positions> spread_dimples(const ReshapePlan& plan, const Iterate& iterate, const Positions& positions,
+std::optional<Positions> spread_dimples(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
                                         const Poll& poll);
 
 }  // namespace swage

@@ -169,7 +169,7 @@ VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<St
   ask(poll);
   vertices.edges = std::make_shared<const BlockSystem::Stars>(vertices.system.stars(rest.edges));
   ask(poll);
-  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest));
+  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest, poll));
   return vertices;
 }
 

@@ -2,9 +2,9 @@
 
 namespace swage {
 
-Renumbered::Renumbered(Mesh given)
+Renumbered::Renumbered(Mesh given, const Edges& edges)
     : given_(std::move(given)),
-      numbering_(by_neighbourhood(given_.triangles, static_cast<int>(given_.positions.rows()))),
+      numbering_(by_neighbourhood(given_, edges)),
       place_of_vertex_(inverse(numbering_.vertices)) {}
 
 ReshapeOptions Renumbered::into(ReshapeOptions options) const {

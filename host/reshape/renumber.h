@@ -14,7 +14,7 @@ namespace swage {
 /// Between what a caller gives and gets and what is solved.
 class Renumbered {
  public:
-  explicit Renumbered(Mesh given);
+  Renumbered(Mesh given, const Edges& edges);
 
   const Mesh& given() const { return given_; }
   Mesh mesh() const { return in_order(given_, numbering_); }

@@ -50,10 +50,10 @@ StopRule stop_rule(const ReshapePlan& plan, bool warm) {
   if (plan.options.solver == ReshapeSolver::steady) {
     stop.by_energy = false;
     if (warm) stop.first_test = 1;
-    stop.movement = plan.options.movement * plan.rest.mean_edge_length;
+    stop.movement = plan.options.movement * plan.rest->mean_edge_length;
     return stop;
   }
-  stop.movement = plan.rest.mean_edge_length / 100;
+  stop.movement = plan.rest->mean_edge_length / 100;
   stop.energy_drop = 0.01 / static_cast<double>(plan.edges.vertices.rows());
   return stop;
 }
@@ -66,7 +66,7 @@ double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions, co
   iterate.before = positions;
   // The published passes solve exactly.
   if (plan.options.solver == ReshapeSolver::published) iterate.work.vertices.system.forget_factor();
-  positions = place_vertices(iterate.work.vertices, plan.rest, iterate.quadratics, plan.straight,
+  positions = place_vertices(iterate.work.vertices, *plan.rest, iterate.quadratics, plan.straight,
                              plan.weights.straightness, {iterate.handles}, iterate.before, poll);
   ask(poll);
   const TransformStep::Energy local = iterate.work.step->fit_transforms(positions, iterate.right_hand_sides);
@@ -107,9 +107,10 @@ ProgressFn after_preparation(const ProgressFn& progress) {
   };
 }
 
-void finish(const ReshapePlan& plan, const Iterate& iterate, const ProgressFn& progress, Positions& positions,
+void finish(const ReshapePlan& plan, Iterate& iterate, const ProgressFn& progress, Positions& positions,
             ReshapeResult& result) {
   const Report& report = result.report;
+  const Stopwatch watch(iterate.seconds["finish"]);
   const Progress now{"finish", report.passes, plan.options.pass_limit, 1, report.energy};
   try {
     const Poll poll = sparing([&] { return !progress || progress(now); });
@@ -163,10 +164,10 @@ ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const Reshape
 }
 
 /// The published solver is never another, whatever rounds in another order.
-std::optional<Renumbered> renumbered(const ReshapeOptions& options, const Mesh& mesh) {
+std::optional<Renumbered> renumbered(const ReshapeOptions& options, const Mesh& mesh, const Edges& edges) {
   constexpr Eigen::Index kWorthwhile = 1'000;  // Vertices. All of fewer are in the cache.
   if (options.solver == ReshapeSolver::published || mesh.positions.rows() < kWorthwhile) return std::nullopt;
-  return Renumbered(mesh);
+  return Renumbered(mesh, edges);
 }
 
 /// What `call` returns; where it throws for an element, that as the caller numbers it.
@@ -206,7 +207,7 @@ Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, c
   const auto vertex_count = static_cast<int>(mesh.positions.rows());
   std::vector<StraightTriple> straight = straight_triples(options.straight_chains, edges, vertex_count);
   const UnitBox box = unit_box(mesh.positions);
-  std::optional<Renumbered> other = renumbered(options, mesh);
+  std::optional<Renumbered> other = renumbered(options, mesh, edges);
   ReshapeOptions own = options;
   if (other) {
     mesh = other->mesh();

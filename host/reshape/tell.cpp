@@ -23,7 +23,7 @@ std::size_t bytes(const TransformStep::Rest& rest) {
 std::map<std::string, std::size_t> bytes_by_part(const ReshapePlan& plan, const Iterate& iterate) {
   const Workspace& work = iterate.work;
   std::map<std::string, std::size_t> parts;
-  parts["rest_shape"] = bytes(plan.rest);
+  parts["rest_shape"] = bytes(*plan.rest);
   parts["transform_system"] = plan.transforms ? plan.transforms->bytes() : plan.multilevel->bytes();
   if (work.transforms) parts["transform_system"] += work.transforms->bytes();
   parts["vertex_system"] = plan.vertices->system.bytes() + work.vertices.bytes();

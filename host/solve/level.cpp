@@ -28,7 +28,7 @@ void add_product(const Lanes* packed, const Lanes* x, Lanes* y) {
 
 }  // namespace
 
-Level::Level(const ElementGraph& graph, const Couplings& couplings)
+Level::Level(const ElementGraph& graph, const Couplings& couplings, const Poll& poll)
     : rows(graph.rows),
       count(graph.own.rows()),
       own(lane_rows(), graph.own.cols()),
@@ -51,6 +51,7 @@ Level::Level(const ElementGraph& graph, const Couplings& couplings)
       if (k < couplings.end(t)) neighbour = couplings.neighbour(k);
     }
   }
+  ask(poll);
   const auto place = [&](int from, int to) {
     const Index slot = slots[static_cast<size_t>(from / kLanes)] + couplings.find(from, to) - couplings.begin(from);
     return slot * kLanes + from % kLanes;
@@ -67,7 +68,7 @@ Level::Level(const ElementGraph& graph, const Couplings& couplings)
 
 std::vector<std::pair<int, int>> Level::merge_into(std::vector<int> coarse,
                                                    const std::vector<std::pair<int, int>>& pairs,
-                                                   const Couplings& couplings) {
+                                                   const Couplings& couplings, const Poll& poll) {
   into = std::move(coarse);
   const Index coarse_elements = static_cast<Index>(couplings.offsets.size()) - 1;
   part_offsets.assign(couplings.offsets.size(), 0);
@@ -87,6 +88,7 @@ std::vector<std::pair<int, int>> Level::merge_into(std::vector<int> coarse,
       coarse_list.emplace_back(c, couplings.neighbour(k));
     }
   }
+  ask(poll);
   coarse_pairs.reserve(pairs.size());
   for (const auto& [i, j] : pairs) {
     const auto [a, b] = std::minmax({into[static_cast<size_t>(i)], into[static_cast<size_t>(j)]});
@@ -110,8 +112,12 @@ void Level::fill(const ElementGraph& graph, const Poll& poll) {
       }
     }
   }
-  ask(poll);
-  rows == 1 ? invert<1>() : invert<3>();
+  constexpr Index kPart = 1 << 18;
+  for (Index first = 0; first < count; first += kPart) {
+    ask(poll);
+    const Index end = std::min(count, first + kPart);
+    rows == 1 ? invert<1>(first, end) : invert<3>(first, end);
+  }
 }
 
 void Level::coarsen(const ElementGraph& graph, ElementGraph& coarse) const {
@@ -132,11 +138,11 @@ void Level::coarsen(const ElementGraph& graph, ElementGraph& coarse) const {
 
 /// The inverses of the matrix's blocks on its diagonal, as packed as `own`.
 template <int kRows>
-void Level::invert() {
+void Level::invert(Index first, Index end) {
   constexpr int kWidth = 3 * kRows;
   using Block = Eigen::Matrix<double, kWidth, kWidth>;
 #pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
-  for (Index t = 0; t < count; ++t) {
+  for (Index t = first; t < end; ++t) {
     const Index row = t / kLanes, lane = t % kLanes;
     PackedCoupling sum = PackedCoupling::Zero();
     for (Index slot = slots[static_cast<size_t>(row)]; slot < slots[static_cast<size_t>(row) + 1]; ++slot) {

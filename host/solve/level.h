@@ -37,7 +37,7 @@ class LaneRows {
 /// Templates are for elements of so many rows, as the level's are.
 struct Level {
   /// Structure alone.
-  Level(const ElementGraph& graph, const Couplings& couplings);
+  Level(const ElementGraph& graph, const Couplings& couplings, const Poll& poll = {});
 
   int rows;
   Eigen::Index count;
@@ -62,7 +62,7 @@ struct Level {
 
   /// `pairs` are this level's, `couplings` the next one's, whose pairs it returns.
   std::vector<std::pair<int, int>> merge_into(std::vector<int> coarse, const std::vector<std::pair<int, int>>& pairs,
-                                              const Couplings& couplings);
+                                              const Couplings& couplings, const Poll& poll = {});
   void fill(const ElementGraph& graph, const Poll& poll = {});
   /// The sums on the next level, whose pairs stand there already.
   void coarsen(const ElementGraph& graph, ElementGraph& coarse) const;
@@ -87,7 +87,7 @@ struct Level {
   template <typename Work>
   void each_row(const Work& work) const;
   template <int kRows>
-  void invert();
+  void invert(Eigen::Index first, Eigen::Index end);
   template <int kRows>
   void load(const Eigen::VectorXf& x, Eigen::Index row, Lanes* lanes) const;
   template <int kRows>

@@ -40,13 +40,14 @@ namespace {
 template <int kRows>
 class Cycles {
  public:
-  Cycles(const Levels& levels, const BlockSystem& coarsest, std::vector<Scratch>& scratch)
-      : levels_(levels), coarsest_(coarsest), scratch_(scratch) {
+  Cycles(const Levels& levels, const BlockSystem& coarsest, std::vector<Scratch>& scratch, const Poll& poll)
+      : levels_(levels), coarsest_(coarsest), scratch_(scratch), poll_(poll) {
     scratch_.resize(levels.size() + 1);
   }
 
   /// About the error that leaves the residual `right` on a level.
   void cycle(size_t depth, const VectorXf& right, VectorXf& error) {
+    ask(poll_);
     if (depth == levels_.size()) {
       error = coarsest_.solve(right.cast<double>()).template cast<float>();
       return;
@@ -98,6 +99,7 @@ class Cycles {
   const Levels& levels_;
   const BlockSystem& coarsest_;
   std::vector<Scratch>& scratch_;
+  const Poll& poll_;
 };
 
 void fill(BlockSystem& system, const ElementGraph& graph) {
@@ -146,7 +148,7 @@ Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) : works_(std
   Couplings couplings = couplings_of(graph, poll);
   while (now->own.rows() > kCoarsest) {
     ask(poll);
-    auto level = std::make_unique<Level>(*now, couplings);
+    auto level = std::make_unique<Level>(*now, couplings, poll);
     ask(poll);
     level->fill(*now, poll);
     std::vector<int> into(static_cast<size_t>(level->count));
@@ -161,7 +163,8 @@ Multilevel::Multilevel(const ElementGraph& graph, const Poll& poll) : works_(std
       couplings = couplings_of(merging, poll);
     }
     const bool stalls = merging.own.rows() > level->count * 3 / 4;
-    next.pairs = level->merge_into(std::move(into), now->pairs, couplings);
+    next.pairs = level->merge_into(std::move(into), now->pairs, couplings, poll);
+    ask(poll);
     pairs_.push_back(next.pairs);
     level->coarsen(*now, next);
     std::swap(coarse, next);
@@ -191,13 +194,13 @@ Multilevel::Multilevel(Multilevel&&) noexcept = default;
 Multilevel& Multilevel::operator=(Multilevel&&) noexcept = default;
 
 template <typename Work>
-Gradients Multilevel::by_cycles(const Work& work) const {
+Gradients Multilevel::by_cycles(const Poll& poll, const Work& work) const {
   const auto lent = works_->lend([] { return std::make_unique<MultilevelWork>(); });
   if (!levels_.empty() && levels_.front()->rows == 3) {
-    Cycles<3> cycles(levels_, *coarsest_, lent->levels);
+    Cycles<3> cycles(levels_, *coarsest_, lent->levels, poll);
     return work(cycles, *lent);
   }
-  Cycles<1> cycles(levels_, *coarsest_, lent->levels);
+  Cycles<1> cycles(levels_, *coarsest_, lent->levels, poll);
   return work(cycles, *lent);
 }
 
@@ -207,13 +210,11 @@ Gradients Multilevel::solve(const Eigen::VectorXd& right_hand_side, double toler
     solution = coarsest_->solve(right_hand_side);
     return {0, true};
   }
-  return by_cycles([&](auto& cycles, MultilevelWork& work) {
+  return by_cycles(poll, [&](auto& cycles, MultilevelWork& work) {
     work.right = right_hand_side.cast<float>();
     work.found.setZero(work.right.size());
-    const auto precondition = [&](const VectorXf& residual, VectorXf& error) {
-      ask(poll);
-      cycles.cycle(0, residual, error);
-    };
+    ask(poll);
+    const auto precondition = [&](const VectorXf& residual, VectorXf& error) { cycles.cycle(0, residual, error); };
     const auto times_matrix = [&](const VectorXf& x, VectorXf& image) { cycles.multiply(x, image); };
     const Gradients done =
         conjugate_gradients(times_matrix, precondition, work.right, tolerance, limit, work.found, work.single);
@@ -224,9 +225,8 @@ Gradients Multilevel::solve(const Eigen::VectorXd& right_hand_side, double toler
 
 Gradients Multilevel::improve(const TimesMatrix& times_matrix, const Eigen::VectorXd& right_hand_side, double tolerance,
                               int limit, Eigen::VectorXd& solution, const Poll& poll) const {
-  return by_cycles([&](auto& cycles, MultilevelWork& work) {
+  return by_cycles(poll, [&](auto& cycles, MultilevelWork& work) {
     const auto precondition = [&](const Eigen::VectorXd& residual, Eigen::VectorXd& error) {
-      ask(poll);
       work.right = residual.cast<float>();
       cycles.cycle(0, work.right, work.found);
       error = work.found.cast<double>();

@@ -49,7 +49,7 @@ class Multilevel {
 
  private:
   template <typename Work>
-  Gradients by_cycles(const Work& work) const;
+  Gradients by_cycles(const Poll& poll, const Work& work) const;
 
   std::vector<std::unique_ptr<Level>> levels_;           // The finest first.
   std::vector<std::vector<std::pair<int, int>>> pairs_;  // Of each level but the finest.

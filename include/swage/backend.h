@@ -32,7 +32,10 @@ class Backend {
 
   virtual std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const = 0;
   virtual std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const = 0;
-  virtual std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const = 0;
+  virtual std::unique_ptr<TransformStep> transform(std::shared_ptr<const TransformStep::Rest> rest) const = 0;
+  std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const {
+    return transform(std::make_shared<const TransformStep::Rest>(rest));
+  }
   virtual std::unique_ptr<CouplingStep> coupling(const TransformStep::Rest& rest) const = 0;
   virtual std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const = 0;
 };

@@ -28,7 +28,7 @@ TEST(Numbering, HasEachElementOnce) {
   const Mesh two = test::joined(test::sphere(1, 2), test::transformed(test::box(), 1, {5, 0, 0}));
   Mesh mesh = two;  // And a vertex of no triangle.
   mesh.positions.conservativeResize(two.positions.rows() + 1, Eigen::NoChange);
-  const Numbering numbering = by_neighbourhood(mesh.triangles, static_cast<int>(mesh.positions.rows()));
+  const Numbering numbering = by_neighbourhood(mesh, edges_of(mesh.triangles));
   EXPECT_TRUE(is_permutation_of_all(numbering.vertices, mesh.positions.rows()));
   EXPECT_TRUE(is_permutation_of_all(numbering.triangles, mesh.triangles.rows()));
   EXPECT_TRUE(is_permutation_of_all(inverse(numbering.vertices), mesh.positions.rows()));
@@ -36,7 +36,7 @@ TEST(Numbering, HasEachElementOnce) {
 
 TEST(Numbering, LeavesEveryTriangleWhereItIs) {
   const Mesh mesh = test::sphere(1, 2);
-  const Numbering numbering = by_neighbourhood(mesh.triangles, static_cast<int>(mesh.positions.rows()));
+  const Numbering numbering = by_neighbourhood(mesh, edges_of(mesh.triangles));
   const Mesh other = in_order(mesh, numbering);
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -48,7 +48,7 @@ TEST(Numbering, LeavesEveryTriangleWhereItIs) {
 
 TEST(Numbering, HasNeighboursNearEachOther) {
   const Mesh mesh = test::subdivided(test::subdivided(test::torus()));
-  const Mesh other = in_order(mesh, by_neighbourhood(mesh.triangles, static_cast<int>(mesh.positions.rows())));
+  const Mesh other = in_order(mesh, by_neighbourhood(mesh, edges_of(mesh.triangles)));
   EXPECT_LT(mean_distance(other), 0.05 * mean_distance(mesh));
 }
 

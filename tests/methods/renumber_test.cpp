@@ -29,7 +29,7 @@ struct Problem {
 
 TEST(Renumbered, IsTheSameProblem) {
   const Problem problem;
-  const Renumbered order(problem.mesh);
+  const Renumbered order(problem.mesh, edges_of(problem.mesh.triangles));
   const Mesh other = order.mesh();
   Reshape given(problem.mesh.positions, problem.mesh.triangles, problem.options);
   Reshape solved(other.positions, other.triangles, order.into(problem.options));
@@ -49,7 +49,7 @@ TEST(Renumbered, IsTheSameProblem) {
 
 TEST(Renumbered, ComesBackAsItWent) {
   const Problem problem;
-  const Renumbered order(problem.mesh);
+  const Renumbered order(problem.mesh, edges_of(problem.mesh.triangles));
   ReshapeResult result;
   result.positions = result.unfinished = problem.mesh.positions;
   result.transforms = Transforms::Random(problem.mesh.triangles.rows(), 9);
