@@ -52,7 +52,7 @@ struct ReshapeWeights {
   double sphericity = 1;             ///< of E_sphericity
   double scale = 1e-4;               ///< w_scale
   double regularizer = 1e-3;         ///< w_reg
-  double normal_regularizer = 3e-3;  ///< Of |T n - n|², which the paper has not (host/reshape/steady.md).
+  double normal_regularizer = 6e-3;  ///< Of |T n - n|², which the paper has not (host/reshape/steady.md).
   double handle = 4e5;               ///< w_constr of E_pos
   double straightness = 4e5;         ///< w_constr of E_straight
 
