@@ -2,47 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <utility>
 
+#include "refined.h"
 #include "shapes.h"
 #include "swage/mesh_io.h"
 
 namespace swage::bench {
-namespace {
-
-using Chains = std::vector<std::vector<int>>;
-
-/// As test::subdivided() orders them: the last child of triangle t has the middles of sides 01, 12 and 20 as corners.
-std::map<std::pair<int, int>, int> middles(const Triangles& coarse, const Triangles& fine) {
-  std::map<std::pair<int, int>, int> middles;
-  for (int t = 0; t < coarse.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      middles[std::minmax({coarse(t, k), coarse(t, (k + 1) % 3)})] = fine(4 * t + 3, k);
-    }
-  }
-  return middles;
-}
-
-Chains subdivided(const Chains& chains, const std::map<std::pair<int, int>, int>& middles) {
-  Chains all;
-  for (const std::vector<int>& chain : chains) {
-    std::vector<int>& fine = all.emplace_back();
-    for (const int vertex : chain) {
-      if (!fine.empty()) fine.push_back(middles.at(std::minmax({fine.back(), vertex})));
-      fine.push_back(vertex);
-    }
-  }
-  return all;
-}
-
-Curvatures subdivided(const Curvatures& curvatures) {
-  Curvatures fine(4 * curvatures.rows(), 2);
-  for (Eigen::Index t = 0; t < curvatures.rows(); ++t) fine.middleRows<4>(4 * t).rowwise() = curvatures.row(t);
-  return fine;
-}
-
-}  // namespace
 
 const std::vector<std::string>& reference_names() {
   static const std::vector<std::string> kNames = {"cylinder_1kF", "phone",       "cutlery_s26-1", "e_car_extruded",
@@ -82,13 +48,9 @@ Model lifted_cylinder(int segments, int rings) {
 }
 
 Model subdivided(const Model& model) {
-  Model fine{model.name, test::subdivided(model.mesh), model.options, model.gestures};
-  if (model.options.unit_box_curvatures) {
-    fine.options.unit_box_curvatures = subdivided(*model.options.unit_box_curvatures);
-  }
-  fine.options.straight_chains =
-      subdivided(model.options.straight_chains, middles(model.mesh.triangles, fine.mesh.triangles));
-  return fine;
+  Mesh fine = test::subdivided(model.mesh);
+  ReshapeOptions options = test::refined(model.options, model.mesh.triangles, fine.triangles);
+  return {model.name, std::move(fine), std::move(options), model.gestures};
 }
 
 double median(std::vector<double> values) {

@@ -1,6 +1,5 @@
 // The transform step (paper sections 3.3 and 4.2) as the formulas read.
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "cpu_steps.h"
+#include "inverse.h"
 
 namespace swage {
 namespace {
@@ -29,23 +29,6 @@ Row9 row(const Matrix3d& matrix) {
 
 /// Below so many elements a pass is over sooner than the threads have met, on a busy machine far sooner.
 constexpr Eigen::Index kWorthThreads = 20000;
-
-struct Inverse {
-  Matrix3d matrix;
-  bool damped;
-};
-
-/// Where the volume factor is below this part of the largest stretch cubed, the inverse would be noise.
-constexpr double kSingular = 1e-9;
-
-Inverse inverse(const Matrix3d& transform) {
-  const double stretch = std::max(transform.norm(), 1e-100);
-  const Matrix3d relative = transform / stretch;
-  if (std::abs(relative.determinant()) > kSingular) return {relative.inverse() / stretch, false};
-  // Least squares with a damping of 1e-3 of the stretch: bounded, and close to the inverse where there is one.
-  const Matrix3d damped = relative.transpose() * relative + 1e-6 * Matrix3d::Identity();
-  return {damped.inverse() * relative.transpose() / stretch, true};
-}
 
 class CpuTransform final : public TransformStep {
  public:
@@ -128,7 +111,7 @@ class CpuTransform final : public TransformStep {
     int singular = 0;
 #pragma omp parallel for schedule(static) reduction(+ : singular) if (transforms_.rows() > kWorthThreads)
     for (Eigen::Index t = 0; t < transforms_.rows(); ++t) {
-      const Inverse result = inverse(inverted(t));
+      const DampedInverse result = damped_inverse(inverted(t));
       inverses_.row(t) = row(result.matrix);
       singular += result.damped ? 1 : 0;
     }

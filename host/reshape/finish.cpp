@@ -119,8 +119,8 @@ Transforms rigid_outside(const std::vector<int>& zone, const Transforms& transfo
   return result;
 }
 
-void fit(const Backend& backend, std::shared_ptr<const TransformStep::Rest> rest, const Transforms& transforms,
-         TransformStep::EdgeQuadratics& quadratics, const Poll& poll) {
+void fit_edges(const Backend& backend, std::shared_ptr<const TransformStep::Rest> rest, const Transforms& transforms,
+               TransformStep::EdgeQuadratics& quadratics, const Poll& poll) {
   ask(poll);
   const std::unique_ptr<TransformStep> step = backend.transform(std::move(rest));
   ask(poll);
@@ -140,7 +140,7 @@ std::optional<Positions> spread_dimples(const ReshapePlan& plan, Iterate& iterat
       std::make_shared<const TransformStep::Rest>(finishing_rest(plan, iterate, zone, positions, normals));
   const TransformStep::Rest& rest = *shared;
   ask(poll);
-  fit(*plan.options.backend, shared, rigid_outside(zone, iterate.transforms), iterate.quadratics, poll);
+  fit_edges(*plan.options.backend, shared, rigid_outside(zone, iterate.transforms), iterate.quadratics, poll);
   ask(poll);
   Holds handles = iterate.handles;
   handles.weight =

@@ -25,9 +25,10 @@ void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
     plan.multilevel.emplace(graph, poll);
     return;
   }
-  BlockSystem transforms = transform_system(*plan.rest, factor_kind(plan.options));
+  BlockSystem transforms = transform_system(*plan.rest, factor_kind(plan.options), poll);
   poll();
-  transforms.factor();
+  transforms.factor(poll);
+  poll();
   if (plan.options.solver == ReshapeSolver::steady && !plan.options.refactor_every_pass) transforms.keep_single();
   plan.transforms = std::move(transforms);
 }

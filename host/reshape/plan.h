@@ -154,7 +154,8 @@ Eigen::Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p);
 /// To be factored by `kind`, or by whatever is faster.
 VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
                            std::optional<FactorKind> kind = {}, const Poll& poll = {});
-BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind = {});
+BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind = {},
+                             const Poll& poll = {});
 
 // global.cpp
 /// The sphericity term as values of the vertex step's matrix.

@@ -173,10 +173,11 @@ VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<St
   return vertices;
 }
 
-BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind) {
+BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind, const Poll& poll) {
   std::vector<std::pair<int, int>> couplings;
   for (const auto& pair : rest.pairs.rowwise()) couplings.emplace_back(pair[0], pair[1]);
   BlockSystem system(static_cast<int>(rest.triangles.rows()), 3, couplings, kind);
+  ask(poll);
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) system.add(static_cast<int>(t), triangle_block(rest, t));
   for (Eigen::Index p = 0; p < rest.pairs.rows(); ++p) {
     const Matrix3d agree = pair_block(rest, p);

@@ -128,9 +128,10 @@ void BlockSystem::add_differences(const Stars& stars,
   }
 }
 
-void BlockSystem::factor() {
+void BlockSystem::factor(const Poll& poll) {
   if (!analyzed_) factor_->analyze(matrix_);
   analyzed_ = true;
+  ask(poll);
   const int first = factor_->factorize(matrix_);
   if (first < 0) return;
   const auto group =

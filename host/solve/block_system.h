@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cancel.h"
 #include "factor.h"
 #include "swage/error.h"
 
@@ -64,8 +65,9 @@ class BlockSystem {
   /// Adds the matrix of sum_pairs (x_i - x_j)' block (x_i - x_j), blocks as xx, xy, xz, yy, yz, zz.
   void add_differences(const Stars& stars, const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& blocks);
 
-  /// Throws Unsolvable, naming the group, where the matrix is not positive definite.
-  void factor();
+  /// Throws Unsolvable, naming the group, where the matrix is not positive definite. Asks between analysing the
+  /// pattern and making the factor, but not within either.
+  void factor(const Poll& poll = {});
   /// The solutions for right-hand sides, a column each, of all groups one after the other. factor() comes first.
   /// May be called from several threads.
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& right_hand_sides) const;

@@ -112,7 +112,7 @@ void Level::fill(const ElementGraph& graph, const Poll& poll) {
       }
     }
   }
-  constexpr Index kPart = 1 << 18;
+  constexpr Index kPart = 1 << 18;  // Elements between polls: a fifth of a second.
   for (Index first = 0; first < count; first += kPart) {
     ask(poll);
     const Index end = std::min(count, first + kPart);

@@ -32,7 +32,9 @@ class Backend {
 
   virtual std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const = 0;
   virtual std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const = 0;
+  /// The step may keep `rest`, which is a quarter of a gigabyte at a million triangles; not null.
   virtual std::unique_ptr<TransformStep> transform(std::shared_ptr<const TransformStep::Rest> rest) const = 0;
+  /// The same of a copy.
   std::unique_ptr<TransformStep> transform(const TransformStep::Rest& rest) const {
     return transform(std::make_shared<const TransformStep::Rest>(rest));
   }

@@ -18,7 +18,8 @@ struct Progress {
 };
 
 /// Called between stages and passes, and every few tenths of a second within long ones (at a million triangles about
-/// every second on two cores), from the calling thread.
+/// every second on two cores), from the calling thread. Not while a matrix is factored: 4 seconds at 84,000 triangles;
+/// by default much larger meshes are solved without a factor.
 /// Returning false cancels: the call ends with the last complete iterate.
 using ProgressFn = std::function<bool(const Progress&)>;
 
