@@ -35,7 +35,6 @@ struct Parts {
   std::unique_ptr<TransformStep> step;
   VertexSystem vertices;
   BlockSystem transforms;
-  std::vector<StraightTriple> straight;
   Holds handles;
 
   /// Vertices by multigrid where `kind` is none.
@@ -47,7 +46,8 @@ struct Parts {
         step(cpu_backend()->transform(rest)),
         vertices(vertex_system(rest, {}, kind)),
         transforms(transform_system(rest)),
-        handles{{0, 1}, rest.vertices.topRows(2), step_weights(model.options, unit(model)).handle} {}
+        handles{{Hold::at(0, rest.vertices.row(0)), Hold::at(1, rest.vertices.row(1))},
+                step_weights(model.options, unit(model)).handle} {}
 
   static Mesh unit(const Model& model) {
     return {unit_box(model.mesh.positions).into(model.mesh.positions), model.mesh.triangles};
@@ -59,8 +59,8 @@ void vertex_step_of(benchmark::State& state, Parts parts) {
   const Transforms transforms = identities(parts.rest.triangles.rows());
   for (auto _ : state) {
     parts.step->fit_edges(transforms, quadratics);
-    benchmark::DoNotOptimize(place_vertices(parts.vertices, parts.rest, quadratics, parts.straight, 0, {parts.handles},
-                                            parts.rest.vertices));
+    benchmark::DoNotOptimize(
+        place_vertices(parts.vertices, parts.rest, quadratics, {}, {parts.handles}, parts.rest.vertices));
   }
   state.counters["unknowns"] = static_cast<double>(parts.vertices.system.unknowns());
   state.counters["factor_entries"] = static_cast<double>(parts.vertices.system.factor_entries());

@@ -56,6 +56,26 @@ Edges edges_of(const Triangles& triangles) {
   return edges;
 }
 
+int edge_between(const Edges& edges, int a, int b) {
+  const auto [low, high] = std::minmax({a, b});
+  Eigen::Index first = 0, last = edges.vertices.rows();
+  while (first < last) {
+    const Eigen::Index middle = (first + last) / 2;
+    const bool before = std::pair(edges.vertices(middle, 0), edges.vertices(middle, 1)) < std::pair(low, high);
+    (before ? first : last) = before ? middle + 1 : middle;
+  }
+  const bool found =
+      first < edges.vertices.rows() && edges.vertices(first, 0) == low && edges.vertices(first, 1) == high;
+  return found ? static_cast<int>(first) : -1;
+}
+
+bool runs_along(const Triangles& triangles, int triangle, const Eigen::RowVector2i& edge) {
+  for (int k = 0; k < 3; ++k) {
+    if (triangles(triangle, k) == edge[0] && triangles(triangle, (k + 1) % 3) == edge[1]) return true;
+  }
+  return false;
+}
+
 Lists triangles_of_vertices(const Triangles& triangles, int vertex_count) {
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(static_cast<size_t>(triangles.size()));

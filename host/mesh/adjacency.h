@@ -39,6 +39,12 @@ struct Edges {
 
 Edges edges_of(const Triangles& triangles);
 
+/// The edge between two vertices, in either order; -1 where none is.
+int edge_between(const Edges& edges, int a, int b);
+
+/// Whether the triangle runs along the edge from its first vertex to its second.
+bool runs_along(const Triangles& triangles, int triangle, const Eigen::RowVector2i& edge);
+
 /// Triangles around each vertex, ascending.
 Lists triangles_of_vertices(const Triangles& triangles, int vertex_count);
 

@@ -7,44 +7,6 @@
 #include "swage/error.h"
 
 namespace swage {
-namespace {
-
-void check_shape(const Mesh& mesh, const Positions& areas, int t) {
-  double longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto a = mesh.positions.row(mesh.triangles(t, k)), b = mesh.positions.row(mesh.triangles(t, (k + 1) % 3));
-    longest = std::max(longest, (a - b).squaredNorm());
-  }
-  // A height below 1e-10 of the longest side leaves the normal to rounding.
-  if (areas.row(t).norm() > 1e-10 * longest) return;
-  throw InvalidInput("Reshape: triangle " + std::to_string(t) + " is degenerate (vertices " +
-                     std::to_string(mesh.triangles(t, 0)) + ", " + std::to_string(mesh.triangles(t, 1)) + ", " +
-                     std::to_string(mesh.triangles(t, 2)) + "); remove or remesh it");
-}
-
-/// Whether the triangle runs along the edge from its first vertex to its second.
-bool runs_along(const Triangles& triangles, int t, const Eigen::RowVector2i& edge) {
-  for (int k = 0; k < 3; ++k) {
-    if (triangles(t, k) == edge[0] && triangles(t, (k + 1) % 3) == edge[1]) return true;
-  }
-  return false;
-}
-
-void check_edge(const Triangles& triangles, const Edges& edges, int e) {
-  const Lists::Range beside = edges.triangles[e];
-  const Eigen::RowVector2i edge = edges.vertices.row(e);
-  const std::string name = "Reshape: edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
-  if (beside.size() == 1) throw InvalidInput(name + " has 1 triangle: close the surface there");
-  if (beside.size() > 2) {
-    throw InvalidInput(name + " has " + std::to_string(beside.size()) + " triangles: make the surface manifold there");
-  }
-  if (runs_along(triangles, beside[0], edge) == runs_along(triangles, beside[1], edge)) {
-    throw InvalidInput(name + " has triangles of opposite orientation (" + std::to_string(beside[0]) + " and " +
-                       std::to_string(beside[1]) + "): orient the surface consistently");
-  }
-}
-
-}  // namespace
 
 void check_options(const ReshapeOptions& options, const Mesh& mesh) {
   const ReshapeWeights w = options.weights.value_or(ReshapeWeights());
@@ -95,10 +57,24 @@ void check_start(const ReshapeResult& start, const ReshapeOptions& options, cons
   check_matrix("transforms", start.transforms, mesh.triangles.rows(), " triangles");
 }
 
-void check_surface(const Mesh& mesh, const Edges& edges) {
-  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
-  for (int t = 0; t < mesh.triangles.rows(); ++t) check_shape(mesh, areas, t);
-  for (int e = 0; e < edges.triangles.size(); ++e) check_edge(mesh.triangles, edges, e);
+void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh) {
+  if (chains.empty()) return;
+  const Edges edges = edges_of(mesh.triangles);
+  for (size_t c = 0; c < chains.size(); ++c) {
+    for (size_t i = 0; i + 1 < chains[c].size(); ++i) {
+      const int a = chains[c][i], b = chains[c][i + 1];
+      if (edge_between(edges, a, b) >= 0) continue;
+      throw InvalidInput("Reshape: options.straight_chains: chain " + std::to_string(c) + ": vertices " +
+                         std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge");
+    }
+  }
+}
+
+void check_surface(const Surface& surface) {
+  const Positions areas = area_vectors(surface.mesh.positions, surface.mesh.triangles);
+  if (areas.rows() > 0 && areas.squaredNorm() > 0) return;
+  throw InvalidInput("Reshape: triangles: none of " + std::to_string(surface.triangle_of.size()) +
+                     " has any area: there is no surface; check the mesh's units and coordinates");
 }
 
 }  // namespace swage

@@ -36,18 +36,18 @@ Transforms smoothed(Transforms transforms, const Eigen::Matrix<int, Eigen::Dynam
   return transforms;
 }
 
-/// Each handle moves the vertex it was collapsed into; where those are one, by the mean.
-Gesture coarse_gesture(const Proxy& proxy, const Positions& rest, const Gesture& gesture) {
-  std::map<int, std::pair<Eigen::Vector3d, int>> sums;
-  for (const auto& [vertex, target] : gesture.targets) {
-    const int coarse = proxy.vertex_of[static_cast<size_t>(vertex)];
-    auto& [sum, count] = sums.try_emplace(coarse, Eigen::Vector3d::Zero(), 0).first->second;
-    sum += target - rest.row(vertex).transpose();
+/// Each handle moves the vertex that its nearest was collapsed into; where those are one, by the mean.
+Gesture coarse_gesture(const Proxy& proxy, const Positions& rest, const std::vector<Hold>& holds) {
+  std::map<int, std::pair<Eigen::RowVector3d, int>> sums;
+  for (const Hold& hold : holds) {
+    const int coarse = proxy.vertex_of[static_cast<size_t>(hold.vertex())];
+    auto& [sum, count] = sums.try_emplace(coarse, Eigen::RowVector3d::Zero(), 0).first->second;
+    sum += hold.target - hold.point(rest);
     ++count;
   }
   Gesture result;
   for (const auto& [vertex, sum] : sums) {
-    result.add(vertex, proxy.mesh.positions.row(vertex).transpose() + sum.first / sum.second);
+    result.add(vertex, (proxy.mesh.positions.row(vertex) + sum.first / sum.second).transpose());
   }
   return result;
 }
@@ -94,9 +94,9 @@ std::unique_ptr<CoarsePlan> coarse_plan(const ReshapePlan& plan, const Curvature
   return nullptr;  // A stand-in that cannot be reshaped is none.
 }
 
-std::optional<Transforms> coarse_transforms(const CoarsePlan& coarse, const ReshapePlan& plan, const Gesture& gesture,
-                                            const ProgressFn& progress) {
-  const Gesture handles = coarse_gesture(coarse.proxy, plan.mesh.positions, gesture);
+std::optional<Transforms> coarse_transforms(const CoarsePlan& coarse, const ReshapePlan& plan,
+                                            const std::vector<Hold>& holds, const ProgressFn& progress) {
+  const Gesture handles = coarse_gesture(coarse.proxy, plan.mesh.positions, holds);
   ProgressFn told;  // As before the first pass of the mesh itself.
   if (progress) told = [&](const Progress&) { return progress({"coarse", 0, plan.options.pass_limit, 0, 0}); };
   try {

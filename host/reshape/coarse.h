@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "decimate.h"
 #include "plan.h"
@@ -23,7 +24,7 @@ std::unique_ptr<CoarsePlan> coarse_plan(const ReshapePlan& plan, const Curvature
 
 /// Of the mesh's triangles, as the gesture on the coarse stand-in has them; identities where it cannot be solved. None
 /// where `progress` cancelled.
-std::optional<Transforms> coarse_transforms(const CoarsePlan& coarse, const ReshapePlan& plan, const Gesture& gesture,
-                                            const ProgressFn& progress);
+std::optional<Transforms> coarse_transforms(const CoarsePlan& coarse, const ReshapePlan& plan,
+                                            const std::vector<Hold>& holds, const ProgressFn& progress);
 
 }  // namespace swage

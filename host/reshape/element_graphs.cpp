@@ -28,6 +28,29 @@ void add_corners(const TransformStep::Rest& rest, ElementGraph& graph) {
   }
 }
 
+/// (sum of f_i x_i)² = -sum of f_i f_j (x_i - x_j)² where the f are of sum 0; leaving out what that subtracts bounds
+/// it.
+void add_tie(const Tie& tie, ElementGraph& graph, std::vector<float>& weights) {
+  for (size_t a = 0; a < tie.factors.size(); ++a) {
+    for (size_t b = a + 1; b < tie.factors.size(); ++b) {
+      const double weight = -tie.weight * tie.factors[a].second * tie.factors[b].second;
+      if (weight <= 0) continue;
+      graph.pairs.emplace_back(tie.factors[a].first, tie.factors[b].first);
+      weights.push_back(static_cast<float>(weight));
+    }
+  }
+}
+
+void add_ties(const std::vector<Tie>& ties, ElementGraph& graph) {
+  std::vector<float> weights;
+  const Eigen::Index first = graph.couplings.rows();
+  for (const Tie& tie : ties) add_tie(tie, graph, weights);
+  graph.couplings.conservativeResize(first + static_cast<Eigen::Index>(weights.size()), Eigen::NoChange);
+  for (size_t i = 0; i < weights.size(); ++i) {
+    graph.couplings.row(first + static_cast<Eigen::Index>(i)) = weights[i] * (Row6() << 1, 0, 0, 1, 0, 1).finished();
+  }
+}
+
 }  // namespace
 
 ElementGraph transform_graph(const TransformStep::Rest& rest) {
@@ -50,7 +73,7 @@ ElementGraph transform_graph(const TransformStep::Rest& rest) {
 }
 
 ElementGraph vertex_graph(const TransformStep::Rest& rest, const TransformStep::EdgeQuadratics& quadratics,
-                          const std::vector<Holds>& holds) {
+                          const std::vector<Tie>& ties, const std::vector<Holds>& holds) {
   ElementGraph graph;
   graph.rows = 1;
   // A transform that is nearly singular makes its edges stiffer than single precision tells from rigid.
@@ -60,10 +83,16 @@ ElementGraph vertex_graph(const TransformStep::Rest& rest, const TransformStep::
   graph.pairs.reserve(static_cast<size_t>(rest.edges.rows()));
   for (const auto& edge : rest.edges.rowwise()) graph.pairs.emplace_back(edge[0], edge[1]);
   add_corners(rest, graph);
+  if (!ties.empty()) add_ties(ties, graph);
   graph.own.setZero(rest.vertices.rows(), 6);
   for (const Holds& held : holds) {
-    for (const int v : held.vertices) {
-      for (const int diagonal : {0, 2, 5}) graph.own(v, diagonal) += static_cast<float>(held.weight);
+    for (const Hold& hold : held.points) {
+      for (size_t k = 0; k < 3; ++k) {
+        const double factor = hold.factors[static_cast<Eigen::Index>(k)];
+        for (const int diagonal : {0, 2, 5}) {
+          graph.own(hold.vertices[k], diagonal) += static_cast<float>(hold.share * held.weight * factor * factor);
+        }
+      }
     }
   }
   return graph;

@@ -12,6 +12,6 @@ ElementGraph transform_graph(const TransformStep::Rest& rest);
 /// The vertex step's: of the sphericity term a bound that couples neighbours alone, edges no stiffer
 /// than 100 times the usual, without straight chains.
 ElementGraph vertex_graph(const TransformStep::Rest& rest, const TransformStep::EdgeQuadratics& quadratics,
-                          const std::vector<Holds>& holds);
+                          const std::vector<Tie>& ties, const std::vector<Holds>& holds);
 
 }  // namespace swage

@@ -16,23 +16,37 @@ double straightness(const Positions& positions, const std::vector<StraightTriple
 
 double handle_misses(const Positions& positions, const Holds& handles) {
   double total = 0;
-  for (size_t h = 0; h < handles.vertices.size(); ++h) {
-    total += (positions.row(handles.vertices[h]) - handles.targets.row(static_cast<Eigen::Index>(h))).squaredNorm();
+  for (const Hold& hold : handles.points) total += hold.share * (hold.point(positions) - hold.target).squaredNorm();
+  return total;
+}
+
+double tie_misses(const Positions& positions, const std::vector<Tie>& ties) {
+  double total = 0;
+  for (const Tie& tie : ties) {
+    Eigen::RowVector3d sum = -tie.rest;
+    for (const auto& [v, factor] : tie.factors) sum += factor * positions.row(v);
+    total += tie.weight * sum.squaredNorm();
   }
   return total;
 }
 
 }  // namespace
 
+double largest_miss(const Holds& handles, const Positions& positions) {
+  double largest = 0;
+  for (const Hold& hold : handles.points) largest = std::max(largest, (hold.point(positions) - hold.target).norm());
+  return largest;
+}
+
 std::map<std::string, double> energy_terms(const TransformStep::Energy& local, const Positions& positions,
-                                           const std::vector<StraightTriple>& straight, const StepWeights& weights,
-                                           const Holds& handles) {
+                                           const Bonds& bonds, const StepWeights& weights, const Holds& handles) {
   return {
       {"transform", local.transform},
       {"normal", local.normal},
       {"scale", local.scale},
       {"sphericity", local.sphericity},
-      {"straightness", weights.straightness * straightness(positions, straight)},
+      {"straightness", bonds.straightness_weight * straightness(positions, bonds.straight)},
+      {"tie", tie_misses(positions, bonds.ties)},
       {"handle", handles.weight * handle_misses(positions, handles)},
       {"connect", local.connect},
       {"similarity", local.similarity},

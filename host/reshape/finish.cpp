@@ -1,158 +1,185 @@
-// Finalising: the dimples that handles leave are spread over the surface around them.
+// Finalising: handles that miss are held harder, and those in dimples by patches instead of points.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 #include "plan.h"
 
 namespace swage {
 namespace {
 
-constexpr int kRings = 4;
-constexpr double kDimple = std::numbers::pi * 10 / 180;  // Turn of a normal beside a handle, radians.
-constexpr double kPublishedHandleWeight = 100;
-constexpr double kLetGo = 0.1;  // Of a handle's weight. Less turns normals as before, more loses the handle.
+constexpr double kMiss = 0.005;        // Of the box's diagonal: handles that miss by more are held harder.
+constexpr double kMissOfPatch = 0.01;  // The same of patches, which let their middle go a little.
+constexpr double kHardest = 100;       // Times as hard.
+constexpr double kPatch = 0.025;       // Radius of a patch, of the unit box.
+constexpr double kShareOfPatch = 0.9;  // Of a handle's weight, to start with.
+constexpr int kRounds = 4;             // In which patches are held harder, until they miss by less.
 
-/// The rings of triangles around a vertex: each ring's share a vertex with the ring before.
-std::vector<std::vector<int>> rings_around(int vertex, const Triangles& triangles, const Lists& around) {
-  std::vector<std::vector<int>> rings;
-  std::vector<char> seen(static_cast<size_t>(triangles.rows()), 0);
-  std::vector<int> vertices{vertex};
-  for (int ring = 0; ring < kRings; ++ring) {
-    std::vector<int> triangles_of_ring, next;
-    for (const int v : vertices) {
-      for (const int t : around[v]) {
-        if (std::exchange(seen[static_cast<size_t>(t)], 1)) continue;
-        triangles_of_ring.push_back(t);
-        for (int k = 0; k < 3; ++k) next.push_back(triangles(t, k));
+/// What can be said for positions.
+struct Merit {
+  double miss;         ///< Largest distance of a handle from its target.
+  double mean_turn;    ///< Of normals, over the surface.
+  double beside_turn;  ///< Largest of a triangle beside some handles.
+};
+
+/// Vertices within the radius of a patch of the handle's and joined to it, or beside it.
+std::vector<int> patch_around(int vertex, const Positions& rest, const Lists& ring) {
+  std::vector<int> patch{vertex};
+  for (size_t next = 0; next < patch.size(); ++next) {
+    for (const int v : ring[patch[next]]) {
+      const bool is_near = next == 0 || (rest.row(v) - rest.row(vertex)).norm() <= kPatch;
+      if (is_near && std::find(patch.begin(), patch.end(), v) == patch.end()) patch.push_back(v);
+    }
+  }
+  return patch;
+}
+
+Eigen::Matrix3d mean_transform(const std::vector<int>& patch, const Lists& around, const Transforms& transforms) {
+  Eigen::Matrix<double, 1, 9> sum = Eigen::Matrix<double, 1, 9>::Zero();
+  int count = 0;
+  for (const int v : patch) {
+    for (const int t : around[v]) {
+      sum += transforms.row(t);
+      ++count;
+    }
+  }
+  sum /= std::max(count, 1);
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(sum.data());
+}
+
+/// Handles in dimples are held by the surface around them, which goes with them as it is stretched.
+class Patches {
+ public:
+  Patches(const ReshapePlan& plan, const std::vector<Hold>& dimpled, const Transforms& transforms)
+      : rest_(plan.rest->vertices),
+        ring_(one_rings(plan.edges, static_cast<int>(rest_.rows()))),
+        around_(triangles_of_vertices(plan.rest->triangles, static_cast<int>(rest_.rows()))),
+        dimpled_(dimpled),
+        transforms_(transforms) {}
+
+  Holds holds(const Holds& handles, double share) const {
+    Holds result = handles;
+    for (const Hold& hold : dimpled_) {
+      std::erase_if(result.points, [&](const Hold& own) { return own.vertices == hold.vertices; });
+      const std::vector<int> patch = patch_around(hold.vertex(), rest_, ring_);
+      const Eigen::Matrix3d transform = mean_transform(patch, around_, transforms_);
+      for (const int v : patch) {
+        const Eigen::Vector3d offset = transform * (rest_.row(v) - hold.point(rest_)).transpose();
+        result.points.push_back(
+            Hold::at(v, hold.target + offset.transpose(), share / static_cast<double>(patch.size())));
       }
     }
-    rings.push_back(std::move(triangles_of_ring));
-    vertices = std::move(next);
+    return result;
   }
-  return rings;
-}
 
-double largest_turn(const std::vector<int>& triangles, const Positions& rest_normals, const Positions& normals) {
-  double largest = 0;
-  for (const int t : triangles) {
-    largest = std::max(largest, std::numbers::pi - dihedral_angle(rest_normals.row(t), normals.row(t)));
+ private:
+  const Positions& rest_;
+  Lists ring_, around_;
+  const std::vector<Hold>& dimpled_;
+  const Transforms& transforms_;
+};
+
+/// Holds handles that miss harder and those in dimples by patches, and keeps what that makes better.
+class Finisher {
+ public:
+  Finisher(const ReshapePlan& plan, Iterate& iterate, const GoOn& go_on)
+      : plan_(plan),
+        iterate_(iterate),
+        handles_(iterate.handles),
+        go_on_(go_on),
+        diagonal_(box_diagonal(plan.rest->vertices.topRows(plan.mesh.positions.rows()))) {}
+
+  /// As the paper repeats its solve.
+  void hold_harder(Positions& positions) {
+    const Merit before = merit(positions, {});
+    if (before.miss <= kMiss * diagonal_) return;
+    iterate_.handles = handles_;
+    iterate_.handles.weight *= std::clamp(2 * before.miss / (kMiss * diagonal_), 2.0, kHardest);
+    Positions again = positions;
+    if (!go_on_(again)) throw Cancelled();
+    const Merit after = merit(again, {});
+    constexpr double kTurn = 1.5, kSmallTurn = 0.01;  // Radians.
+    const bool better = after.miss < 0.8 * before.miss && after.mean_turn < kTurn * before.mean_turn + kSmallTurn;
+    tell("held harder", before, after, better);
+    if (better) positions = std::move(again);
   }
-  return largest;
-}
 
-/// For each triangle the ring, from 1, of the nearest handle in a dimple; 0 outside all rings of such.
-std::vector<int> dimple_zone(const Holds& handles, const TransformStep::Rest& rest, const Positions& normals) {
-  const Lists around = triangles_of_vertices(rest.triangles, static_cast<int>(rest.vertices.rows()));
-  std::vector<int> zone(static_cast<size_t>(rest.triangles.rows()), 0);
-  for (const int handle : handles.vertices) {
-    const std::vector<std::vector<int>> rings = rings_around(handle, rest.triangles, around);
-    const double near = largest_turn(rings.front(), rest.normals, normals);
-    if (near <= kDimple || near <= 2 * largest_turn(rings.back(), rest.normals, normals)) continue;
-    for (int ring = 1; ring <= kRings; ++ring) {
-      for (const int t : rings[static_cast<size_t>(ring - 1)]) {
-        int& nearest = zone[static_cast<size_t>(t)];
-        nearest = nearest == 0 ? ring : std::min(nearest, ring);
-      }
+  void hold_patches(Positions& positions) {
+    const std::vector<Hold> dimpled = dimples(handles_, *plan_.rest, positions);
+    if (dimpled.empty()) return;
+    const Transforms transforms = iterate_.transforms;
+    const Patches patches(plan_, dimpled, transforms);
+    const Merit before = merit(positions, dimpled);
+    Positions again = positions;
+    double share = kShareOfPatch;
+    for (int round = 0; round < kRounds; ++round) {
+      iterate_.handles = patches.holds(handles_, share);
+      if (!go_on_(again)) throw Cancelled();
+      const double missed = largest_miss(handles_, again) / diagonal_;
+      if (missed <= kMissOfPatch) break;
+      share *= 1.1 * missed / kMissOfPatch;
     }
+    const Merit after = merit(again, dimpled);
+    const bool better =
+        after.miss <= std::max(before.miss, kMissOfPatch * diagonal_) && after.beside_turn < before.beside_turn;
+    tell(std::to_string(dimpled.size()) + " dimples held by patches", before, after, better);
+    if (better) positions = std::move(again);
   }
-  return zone;
-}
 
-/// Edges with a triangle of the zone beside them.
-std::vector<char> edges_inside(const std::vector<int>& zone, const TransformStep::Rest& rest) {
-  std::vector<char> inside(static_cast<size_t>(rest.edges.rows()), 0);
-  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
-    if (zone[static_cast<size_t>(t)] == 0) continue;
-    for (int k = 0; k < 3; ++k) inside[static_cast<size_t>(rest.triangle_edges(t, k))] = 1;
-  }
-  return inside;
-}
+  const std::string& told() const { return told_; }
 
-/// The rest shape of the finishing step: the output's outside the zone, blended in its normals inside. Length weights
-/// are those of the last pass; the steady solver's inside those of the rest lengths, which are the targets there.
-TransformStep::Rest finishing_rest(const ReshapePlan& plan, const Iterate& iterate, const std::vector<int>& zone,
-                                   const Positions& positions, const Positions& normals) {
-  TransformStep::Rest rest = *plan.rest;
-  const std::vector<char> inside = edges_inside(zone, rest);
-  const Positions vectors = edge_vectors(positions, plan.edges);
-  rest.target_lengths = iterate.quadratics.target_lengths;
-  if (!rest.weighs_targets) {
-    const Positions before = edge_vectors(iterate.before, plan.edges) / rest.mean_edge_length;
-    rest.length_weights = before.rowwise().squaredNorm().cwiseMax(1);  // Eq. 6
-  }
-  for (Eigen::Index e = 0; e < rest.edges.rows(); ++e) {
-    if (inside[static_cast<size_t>(e)]) {
-      rest.target_lengths[e] = rest.edge_vectors.row(e).norm();
-    } else {
-      rest.edge_vectors.row(e) = vectors.row(e);
+ private:
+  Merit merit(const Positions& positions, const std::vector<Hold>& beside) const {
+    const Positions normals = unit_normals(positions, plan_.rest->triangles);
+    const Positions areas = area_vectors(plan_.rest->vertices, plan_.rest->triangles);
+    Merit result{largest_miss(handles_, positions), 0, 0};
+    double sum = 0;
+    for (Eigen::Index t = 0; t < normals.rows(); ++t) {
+      const double turn = normals.row(t).isZero(0)
+                              ? std::numbers::pi
+                              : std::numbers::pi - dihedral_angle(plan_.rest->normals.row(t), normals.row(t));
+      const double area = areas.row(t).norm();
+      result.mean_turn += area * turn;
+      sum += area;
+      const auto has = [&](const Hold& hold) { return (plan_.rest->triangles.row(t).array() == hold.vertex()).any(); };
+      if (std::any_of(beside.begin(), beside.end(), has)) result.beside_turn = std::max(result.beside_turn, turn);
     }
+    result.mean_turn /= sum;
+    return result;
   }
-  for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
-    const int ring = zone[static_cast<size_t>(t)];
-    const double output = ring == 0 ? 1 : static_cast<double>(ring - 1) / kRings;
-    rest.normals.row(t) = (output * normals.row(t) + (1 - output) * rest.normals.row(t)).normalized();
-  }
-  return rest;
-}
 
-Holds hold_outside(const std::vector<int>& zone, const Triangles& triangles, const Positions& positions,
-                   double weight) {
-  std::vector<char> outside(static_cast<size_t>(positions.rows()), 0);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    if (zone[static_cast<size_t>(t)] > 0) continue;
-    for (int k = 0; k < 3; ++k) outside[static_cast<size_t>(triangles(t, k))] = 1;
+  void tell(const std::string& what, const Merit& before, const Merit& after, bool better) {
+    std::ostringstream words;
+    words.precision(3);
+    words << (told_.empty() ? "" : "; ") << what << ": handles miss by " << 100 * after.miss / diagonal_
+          << " % (before " << 100 * before.miss / diagonal_ << " %), normals turn by "
+          << after.mean_turn * 180 / std::numbers::pi << " degrees (before "
+          << before.mean_turn * 180 / std::numbers::pi << ")" << (better ? "" : ": not better, left");
+    told_ += words.str();
   }
-  Holds holds{{}, {}, weight};
-  for (int v = 0; v < positions.rows(); ++v) {
-    if (outside[static_cast<size_t>(v)]) holds.vertices.push_back(v);
-  }
-  holds.targets = positions(holds.vertices, Eigen::all);
-  return holds;
-}
 
-Transforms rigid_outside(const std::vector<int>& zone, const Transforms& transforms) {
-  Transforms result = identities(transforms.rows());
-  for (Eigen::Index t = 0; t < transforms.rows(); ++t) {
-    if (zone[static_cast<size_t>(t)] > 0) result.row(t) = transforms.row(t);
-  }
-  return result;
-}
-
-void fit_edges(const Backend& backend, std::shared_ptr<const TransformStep::Rest> rest, const Transforms& transforms,
-               TransformStep::EdgeQuadratics& quadratics, const Poll& poll) {
-  ask(poll);
-  const std::unique_ptr<TransformStep> step = backend.transform(std::move(rest));
-  ask(poll);
-  step->fit_edges(transforms, quadratics);
-}
+  const ReshapePlan& plan_;
+  Iterate& iterate_;
+  const Holds handles_;
+  const GoOn& go_on_;
+  const double diagonal_;
+  std::string told_;
+};
 
 }  // namespace
 
-std::optional<Positions> spread_dimples(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
-                                        const Poll& poll) {
-  const Positions normals = unit_normals(positions, plan.rest->triangles);
-  const std::vector<int> zone = dimple_zone(iterate.handles, *plan.rest, normals);
-  if (std::all_of(zone.begin(), zone.end(), [](int ring) { return ring == 0; })) return std::nullopt;
-
-  ask(poll);
-  const auto shared =
-      std::make_shared<const TransformStep::Rest>(finishing_rest(plan, iterate, zone, positions, normals));
-  const TransformStep::Rest& rest = *shared;
-  ask(poll);
-  fit_edges(*plan.options.backend, shared, rigid_outside(zone, iterate.transforms), iterate.quadratics, poll);
-  ask(poll);
-  Holds handles = iterate.handles;
-  handles.weight =
-      plan.options.solver == ReshapeSolver::published ? kPublishedHandleWeight : kLetGo * plan.weights.handle;
-  const Holds outside = hold_outside(zone, rest.triangles, positions, plan.weights.handle);
-  ask(poll);
-  VertexSystem& vertices = iterate.work.vertices;
-  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest, poll));
-  vertices.system.forget_factor();  // Of another problem.
-  ask(poll);
-  return place_vertices(vertices, rest, iterate.quadratics, plan.straight, plan.weights.straightness,
-                        {handles, outside}, positions, poll);
+std::optional<Positions> finished(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
+                                  const GoOn& go_on, const Poll& poll, std::string& told) {
+  if (plan.options.solver == ReshapeSolver::published) return let_go(plan, iterate, positions, poll);
+  Finisher finisher(plan, iterate, go_on);
+  Positions better = positions;
+  finisher.hold_harder(better);
+  finisher.hold_patches(better);
+  told = finisher.told();
+  if (better == positions) return std::nullopt;
+  return better;
 }
 
 }  // namespace swage

@@ -53,62 +53,101 @@ void add_straight(Quadratic& quadratic, const StraightTriple& triple, const Eige
   }
 }
 
-void add_holds(Quadratic& quadratic, const Holds& holds) {
-  for (size_t h = 0; h < holds.vertices.size(); ++h) {
-    const int v = holds.vertices[h];
-    quadratic.system.add(v, holds.weight * Matrix3d::Identity());
-    quadratic.right_hand_side.segment<3>(3 * v) += holds.weight * holds.targets.row(static_cast<Eigen::Index>(h));
+void add_hold(Quadratic& quadratic, const Hold& hold, double weight) {
+  for (size_t a = 0; a < 3; ++a) {
+    const int v = hold.vertices[a];
+    const double factor = hold.factors[static_cast<Eigen::Index>(a)];
+    if (factor == 0) continue;
+    quadratic.system.add(v, weight * factor * factor * Matrix3d::Identity());
+    quadratic.right_hand_side.segment<3>(3 * v) += weight * factor * hold.target;
+    for (size_t b = a + 1; b < 3; ++b) {
+      const double other = hold.factors[static_cast<Eigen::Index>(b)];
+      if (other != 0) quadratic.system.add(v, hold.vertices[b], 0, weight * factor * other * Matrix3d::Identity());
+    }
+  }
+}
+
+void add_tie(BlockSystem& system, const Tie& tie) {
+  for (size_t a = 0; a < tie.factors.size(); ++a) {
+    const auto [v, factor] = tie.factors[a];
+    system.add(v, tie.weight * factor * factor * Matrix3d::Identity());
+    for (size_t b = a + 1; b < tie.factors.size(); ++b) {
+      const auto [other, times] = tie.factors[b];
+      system.add(v, other, 0, tie.weight * factor * times * Matrix3d::Identity());
+    }
+  }
+}
+
+void add_sphericity(BlockSystem& system, const TransformStep::Rest& rest, Eigen::Index t) {
+  for (const Corner& corner : corners(rest, t)) {
+    const Matrix3d at_j = Matrix3d::Identity() / corner.length_j, at_k = -corner.turn / corner.length_k;
+    const std::array<int, 3> vertices{corner.i, corner.j, corner.k};
+    const std::array<Matrix3d, 3> factors{-at_j - at_k, at_j, at_k};
+    for (size_t a = 0; a < 3; ++a) {
+      system.add(vertices[a], rest.sphericities[t] * factors[a].transpose() * factors[a]);
+      for (size_t b = a + 1; b < 3; ++b) {
+        system.add(vertices[a], vertices[b], 0, rest.sphericities[t] * factors[a].transpose() * factors[b]);
+      }
+    }
   }
 }
 
 }  // namespace
 
-Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest, const Poll& poll) {
+Eigen::RowVector3d Hold::point(const Positions& positions) const {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (size_t k = 0; k < 3; ++k) sum += factors[static_cast<Eigen::Index>(k)] * positions.row(vertices[k]);
+  return sum;
+}
+
+int Hold::vertex() const {
+  Eigen::Index most = 0;
+  factors.maxCoeff(&most);
+  return vertices[static_cast<size_t>(most)];
+}
+
+Eigen::VectorXd constant_values(BlockSystem& system, const TransformStep::Rest& rest, const std::vector<Tie>& ties,
+                                const Poll& poll) {
   system.set_zero();
   ask(poll);
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
-    if (rest.sphericities[t] == 0) continue;
-    for (const Corner& corner : corners(rest, t)) {
-      const Matrix3d at_j = Matrix3d::Identity() / corner.length_j, at_k = -corner.turn / corner.length_k;
-      const std::array<int, 3> vertices{corner.i, corner.j, corner.k};
-      const std::array<Matrix3d, 3> factors{-at_j - at_k, at_j, at_k};
-      for (size_t a = 0; a < 3; ++a) {
-        system.add(vertices[a], rest.sphericities[t] * factors[a].transpose() * factors[a]);
-        for (size_t b = a + 1; b < 3; ++b) {
-          system.add(vertices[a], vertices[b], 0, rest.sphericities[t] * factors[a].transpose() * factors[b]);
-        }
-      }
-    }
+    if (rest.sphericities[t] != 0) add_sphericity(system, rest, t);
   }
+  for (const Tie& tie : ties) add_tie(system, tie);
   ask(poll);
   return system.values();
 }
 
 Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest,
-                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds) {
+                         const TransformStep::EdgeQuadratics& quadratics, const Bonds& bonds,
+                         const std::vector<Holds>& holds) {
   Quadratic quadratic{vertices.system, Eigen::VectorXd::Zero(vertices.system.unknowns())};
-  vertices.system.values() = *vertices.sphericity;
+  vertices.system.values() = *vertices.constant;
   add_edges(quadratic, *vertices.edges, rest, quadratics);
-  for (const StraightTriple& triple : straight) {
-    add_straight(quadratic, triple, quadratics.target_lengths, straightness_weight);
+  for (const StraightTriple& triple : bonds.straight) {
+    add_straight(quadratic, triple, quadratics.target_lengths, bonds.straightness_weight);
   }
-  for (const Holds& held : holds) add_holds(quadratic, held);
+  for (const Tie& tie : bonds.ties) {
+    for (const auto& [v, factor] : tie.factors) {
+      quadratic.right_hand_side.segment<3>(3 * v) += tie.weight * factor * tie.rest;
+    }
+  }
+  for (const Holds& held : holds) {
+    for (const Hold& hold : held.points) add_hold(quadratic, hold, hold.share * held.weight);
+  }
   return quadratic.right_hand_side;
 }
 
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
-                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
-                         const Poll& poll) {
+                         const TransformStep::EdgeQuadratics& quadratics, const Bonds& bonds,
+                         const std::vector<Holds>& holds, const Positions& start, const Poll& poll) {
   if (!vertices.system.has_factor()) {
-    if (std::optional<Positions> placed =
-            place_by_multigrid(vertices, rest, quadratics, straight, straightness_weight, holds, start, poll)) {
+    if (std::optional<Positions> placed = place_by_multigrid(vertices, rest, quadratics, bonds, holds, start, poll)) {
       return *placed;
     }
-    vertices = vertex_system(rest, straight, {}, poll);
+    vertices = vertex_system(rest, bonds, {}, poll);
   }
-  const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
+  const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, bonds, holds);
   ask(poll);
   const Eigen::VectorXd solution =
       vertices.system.solve_near(right_hand_side, Eigen::Map<const Eigen::VectorXd>(start.data(), start.size()));
@@ -116,12 +155,11 @@ Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest
 }
 
 std::optional<Positions> place_by_multigrid(VertexSystem& vertices, const TransformStep::Rest& rest,
-                                            const TransformStep::EdgeQuadratics& quadratics,
-                                            const std::vector<StraightTriple>& straight, double straightness_weight,
+                                            const TransformStep::EdgeQuadratics& quadratics, const Bonds& bonds,
                                             const std::vector<Holds>& holds, const Positions& start, const Poll& poll) {
-  const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, straight, straightness_weight, holds);
+  const Eigen::VectorXd right_hand_side = assemble(vertices, rest, quadratics, bonds, holds);
   ask(poll);
-  const ElementGraph graph = vertex_graph(rest, quadratics, holds);
+  const ElementGraph graph = vertex_graph(rest, quadratics, bonds.ties, holds);
   ask(poll);
   vertices.multilevel ? vertices.multilevel->refill(graph, poll) : void(vertices.multilevel.emplace(graph, poll));
   const auto times_matrix = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = vertices.system.times(x); };

@@ -1,8 +1,12 @@
 // Preparing a plan: all that depends on the rest shape alone.
 #include "plan.h"
 
+#include <algorithm>
+
 #include "coarse.h"
 #include "element_graphs.h"
+#include "flat.h"
+#include "links.h"
 
 namespace swage {
 namespace {
@@ -37,10 +41,23 @@ void factor_or_coarsen(ReshapePlan& plan, const Poll& poll) {
 bool multigrid_suits(const ReshapePlan& plan, Workspace& work, const Poll& poll) {
   TransformStep::EdgeQuadratics quadratics;
   work.step->fit_edges(identities(plan.rest->triangles.rows()), quadratics);
-  const Holds hold{{0}, plan.rest->vertices.topRows(1), plan.weights.handle};
-  return place_by_multigrid(work.vertices, *plan.rest, quadratics, plan.straight, plan.weights.straightness, {hold},
-                            2 * plan.rest->vertices, poll)
+  const Holds hold{{Hold::at(0, plan.rest->vertices.row(0))}, plan.weights.handle};
+  return place_by_multigrid(work.vertices, *plan.rest, quadratics, plan.bonds, {hold}, 2 * plan.rest->vertices, poll)
       .has_value();
+}
+
+/// Joins components that no triangle joins.
+void join_components(ReshapePlan& plan, const Mesh& unit_mesh, const Poll& poll) {
+  const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
+  const int count = 1 + *std::max_element(component.begin(), component.end());
+  if (count == 1) return;
+  Links links = contacts(unit_mesh, plan.edges, poll);
+  add_links(unit_mesh, poll, links);
+  plan.bonds.ties = std::move(links.ties);
+  plan.paths.components = "links: " + std::to_string(count) + " components, joined at " +
+                          std::to_string(links.contacts) + " contacts and by " +
+                          std::to_string(plan.bonds.ties.size() - static_cast<size_t>(links.contacts)) +
+                          " links between nearest points";
 }
 
 void make(ReshapePlan& plan, const ProgressFn& progress) {
@@ -61,10 +78,15 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   poll();
   plan.weights = step_weights(plan.options, unit_mesh);
   plan.rest = std::make_shared<const TransformStep::Rest>(rest_shape(plan.options, unit_mesh, plan.edges, curvatures));
+  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
   plan.paths =
-      choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.straight.empty());
+      choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.bonds.straight.empty());
+  plan.bonds.straightness_weight = plan.weights.straightness;
+  begin("components", 0.15);
+  join_components(plan, unit_mesh, poll);
   begin("order", 0.2);
-  plan.vertices = vertex_system(*plan.rest, plan.straight, vertex_factor_kind(plan), poll);
+  plan.vertices = vertex_system(*plan.rest, plan.bonds, vertex_factor_kind(plan), poll);
   begin("factor", 0.4);
   factor_or_coarsen(plan, poll);
   begin("coarse", 0.8);
@@ -77,7 +99,7 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
       !multigrid_suits(plan, *first, poll)) {
     plan.paths.vertices = LinearSolver::factor;
     plan.paths.why_vertices = "multigrid is slow on these triangles";
-    plan.vertices = vertex_system(*plan.rest, plan.straight, factor_kind(plan.options), poll);
+    plan.vertices = vertex_system(*plan.rest, plan.bonds, factor_kind(plan.options), poll);
     first->vertices = plan.vertices->unsolved();
   }
   plan.prepared = true;

@@ -1,6 +1,8 @@
 // What a prepared reshaping keeps, and the verbs that solve() is told in.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,11 +12,12 @@
 
 #include "anderson.h"
 #include "block_system.h"
+#include "given.h"
 #include "measures.h"
 #include "multilevel.h"
 #include "pool.h"
-#include "renumber.h"
 #include "stopwatch.h"
+#include "surface.h"
 #include "swage/reshape.h"
 
 namespace swage {
@@ -25,10 +28,38 @@ struct StraightTriple {
   int edge_before, edge_after;
 };
 
-/// Vertices held at targets, softly. In the unit box.
+/// Vertices that are joined without a triangle: weight |sum of factor * vertex - rest|². Factors are of sum 0.
+struct Tie {
+  std::vector<std::pair<int, double>> factors;
+  Eigen::RowVector3d rest;
+  double weight;
+};
+
+/// What vertices are to each other besides edges of triangles. In the unit box.
+struct Bonds {
+  std::vector<StraightTriple> straight = {};
+  double straightness_weight = 0;
+  std::vector<Tie> ties = {};
+};
+
+/// A point, made of up to three vertices, and where it is held.
+struct Hold {
+  std::array<int, 3> vertices;
+  Eigen::Vector3d factors;  ///< Of sum 1. A vertex by itself is the first, with factor 1.
+  Eigen::RowVector3d target;
+  double share = 1;  ///< Of the weight of its Holds.
+
+  static Hold at(int vertex, const Eigen::RowVector3d& target, double share = 1) {
+    return {{vertex, vertex, vertex}, {1, 0, 0}, target, share};
+  }
+  /// The vertex with most of the point.
+  int vertex() const;
+  Eigen::RowVector3d point(const Positions& positions) const;
+};
+
+/// Points held softly. In the unit box.
 struct Holds {
-  std::vector<int> vertices;
-  Positions targets;  ///< A row a vertex.
+  std::vector<Hold> points;
   double weight = 0;
 };
 
@@ -36,12 +67,12 @@ struct Holds {
 struct VertexSystem {
   BlockSystem system;
   std::shared_ptr<const BlockSystem::Stars> edges;
-  std::shared_ptr<const Eigen::VectorXd> sphericity;  ///< The matrix's values of the sphericity term alone.
-  std::optional<Multilevel> multilevel = {};          ///< Of a pass before, where the system is not factored.
-  int solves = 0;                                     ///< By it.
+  std::shared_ptr<const Eigen::VectorXd> constant;  ///< The matrix's values of sphericity and ties, which never change.
+  std::optional<Multilevel> multilevel = {};        ///< Of a pass before, where the system is not factored.
+  int solves = 0;                                   ///< By it.
 
   /// The same, as new.
-  VertexSystem unsolved() const { return {system.unfactored(), edges, sphericity}; }
+  VertexSystem unsolved() const { return {system.unfactored(), edges, constant}; }
   std::size_t bytes() const {
     return system.bytes() + edges->rays.size() * sizeof(BlockSystem::Stars::Ray) +
            (multilevel ? multilevel->bytes() : 0);
@@ -73,6 +104,7 @@ struct Workspace {
 struct Paths {
   LinearSolver vertices = LinearSolver::factor, transforms = LinearSolver::factor;  ///< Never automatic.
   std::string why_vertices, why_transforms, why_no_coarse_start;
+  std::string components = "one";
 };
 
 struct CoarsePlan;
@@ -80,17 +112,19 @@ struct CoarsePlan;
 /// Solves read it, several at once, but for the pool.
 struct ReshapePlan {
   ReshapeOptions options;
-  std::optional<Renumbered> renumbered;  ///< Where what follows is not in the order given.
-  Mesh mesh;                             ///< Mesh units.
+  std::optional<Given> given;  ///< Where what follows is not as given.
+  Mesh mesh;                   ///< Mesh units.
+  SurfaceCounts counts;
   UnitBox box;
   Edges edges;
-  std::vector<StraightTriple> straight;
+  Bonds bonds;
 
   // Filled by prepare().
   StepWeights weights = {};
   std::shared_ptr<const TransformStep::Rest> rest = {};
   std::optional<VertexSystem> vertices = {};  ///< Never factored: workspaces have copies.
   Paths paths = {};
+  int flat_triangles = 0;
   std::optional<BlockSystem> transforms = {};  ///< Factored, where it is to be.
   std::optional<Multilevel> multilevel = {};   ///< Where not.
   std::shared_ptr<const CoarsePlan> coarse = {};
@@ -125,11 +159,12 @@ bool prepare(ReshapePlan& plan, const ProgressFn& progress);
 std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll = {});
 
 // tell.cpp
-void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report);
+void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, const Positions& positions, Report& report);
 
 // check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);
-void check_surface(const Mesh& mesh, const Edges& edges);
+void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh);
+void check_surface(const Surface& surface);
 void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh);
 
 // paths.cpp
@@ -143,8 +178,7 @@ Paths choose_paths(const ReshapeOptions& options, Eigen::Index vertex_count, Eig
 StepWeights step_weights(const ReshapeOptions& options, const Mesh& unit_mesh);
 
 // prepare.cpp
-std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
-                                             int vertex_count);
+std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges);
 TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_mesh, const Edges& edges,
                                const Curvatures& unit_box_curvatures);
 /// The terms of eq. 35 within triangle t: transform, normal, sphericity, regularizer.
@@ -152,28 +186,27 @@ Eigen::Matrix<double, 9, 9> triangle_block(const TransformStep::Rest& rest, Eige
 /// Those across pair p, connect and similarity, for each row of the difference of the pair's transforms.
 Eigen::Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p);
 /// To be factored by `kind`, or by whatever is faster.
-VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
-                           std::optional<FactorKind> kind = {}, const Poll& poll = {});
+VertexSystem vertex_system(const TransformStep::Rest& rest, const Bonds& bonds, std::optional<FactorKind> kind = {},
+                           const Poll& poll = {});
 BlockSystem transform_system(const TransformStep::Rest& rest, std::optional<FactorKind> kind = {},
                              const Poll& poll = {});
 
 // global.cpp
-/// The sphericity term as values of the vertex step's matrix.
-Eigen::VectorXd sphericity_values(BlockSystem& system, const TransformStep::Rest& rest, const Poll& poll = {});
+/// The sphericity term and ties as values of the vertex step's matrix.
+Eigen::VectorXd constant_values(BlockSystem& system, const TransformStep::Rest& rest, const std::vector<Tie>& ties,
+                                const Poll& poll = {});
 /// The vertex step's quadratic x' A x - 2 b' x (eq. 23 with section 4's terms): A into the system; returns b.
 Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest,
-                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds);
+                         const TransformStep::EdgeQuadratics& quadratics, const Bonds& bonds,
+                         const std::vector<Holds>& holds);
 /// Minimises it.
 Positions place_vertices(VertexSystem& vertices, const TransformStep::Rest& rest,
-                         const TransformStep::EdgeQuadratics& quadratics, const std::vector<StraightTriple>& straight,
-                         double straightness_weight, const std::vector<Holds>& holds, const Positions& start,
-                         const Poll& poll = {});
+                         const TransformStep::EdgeQuadratics& quadratics, const Bonds& bonds,
+                         const std::vector<Holds>& holds, const Positions& start, const Poll& poll = {});
 /// The same of a system without a factor; none where that would take longer than to make one: on needles, which vary
 /// too much, and on straight chains, of which multigrid does not know.
 std::optional<Positions> place_by_multigrid(VertexSystem& vertices, const TransformStep::Rest& rest,
-                                            const TransformStep::EdgeQuadratics& quadratics,
-                                            const std::vector<StraightTriple>& straight, double straightness_weight,
+                                            const TransformStep::EdgeQuadratics& quadratics, const Bonds& bonds,
                                             const std::vector<Holds>& holds, const Positions& start, const Poll& poll);
 /// Minimises the transform step's quadratic (eq. 35).
 Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides);
@@ -192,13 +225,26 @@ Transforms identities(Eigen::Index triangle_count);
 // energy.cpp
 /// The terms by name, weighted; their sum decides when to stop.
 std::map<std::string, double> energy_terms(const TransformStep::Energy& local, const Positions& positions,
-                                           const std::vector<StraightTriple>& straight, const StepWeights& weights,
-                                           const Holds& handles);
+                                           const Bonds& bonds, const StepWeights& weights, const Holds& handles);
 double sum(const std::map<std::string, double>& terms);
 
+/// Largest distance of a handle from its target.
+double largest_miss(const Holds& handles, const Positions& positions);
+
+// dimples.cpp
+/// Handles beside which the surface turns far more than a way off: in a dimple (appendix A).
+std::vector<Hold> dimples(const Holds& handles, const TransformStep::Rest& rest, const Positions& positions);
+/// The published finalising: one vertex step, in which the rings around dimples let go of their handles. None where
+/// there are no dimples.
+std::optional<Positions> let_go(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
+                                const Poll& poll);
+
 // finish.cpp
-/// Where a handle sits in a dimple, the positions with its error spread over the rings around (appendix A).
-std::optional<Positions> spread_dimples(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
-                                        const Poll& poll);
+/// Goes on from positions, with the iterate's transforms and handles, to where passes end. False where cancelled.
+using GoOn = std::function<bool(Positions&)>;
+/// Improves what the passes left, where handles miss or sit in dimples, and tells what was done. None where there was
+/// nothing to do, or it made nothing better. `iterate` is of no use afterwards.
+std::optional<Positions> finished(const ReshapePlan& plan, Iterate& iterate, const Positions& positions,
+                                  const GoOn& go_on, const Poll& poll, std::string& told);
 
 }  // namespace swage

@@ -2,11 +2,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "flat.h"
 #include "plan.h"
 #include "sphericity.h"
-#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -39,27 +38,28 @@ int opposite(const Triangles& triangles, int triangle, const Eigen::RowVector2i&
   return edge[0];
 }
 
-int edge_between(const Edges& edges, int a, int b) {
-  const auto [low, high] = std::minmax({a, b});
-  Eigen::Index first = 0, last = edges.vertices.rows();
-  while (first < last) {
-    const Eigen::Index middle = (first + last) / 2;
-    const bool before = std::pair(edges.vertices(middle, 0), edges.vertices(middle, 1)) < std::pair(low, high);
-    (before ? first : last) = before ? middle + 1 : middle;
-  }
-  const bool found =
-      first < edges.vertices.rows() && edges.vertices(first, 0) == low && edges.vertices(first, 1) == high;
-  return found ? static_cast<int>(first) : -1;
-}
-
-void add_pairs(TransformStep::Rest& rest, const Edges& edges, double feature_angle, double similarity) {
+/// Each two triangles beside an edge. Of very many, each and the next: their pairs would outgrow the mesh.
+std::vector<std::array<int, 3>> pairs_of(const Edges& edges) {
+  constexpr int kMany = 16;
   std::vector<std::array<int, 3>> pairs;
   for (int e = 0; e < edges.triangles.size(); ++e) {
     const Lists::Range beside = edges.triangles[e];
     for (int i = 0; i < beside.size(); ++i) {
-      for (int j = i + 1; j < beside.size(); ++j) pairs.push_back({beside[i], beside[j], e});
+      const int last = beside.size() > kMany ? std::min(i + 2, beside.size()) : beside.size();
+      for (int j = i + 1; j < last; ++j) pairs.push_back({beside[i], beside[j], e});
     }
   }
+  return pairs;
+}
+
+/// Interior, whichever way the triangles wind.
+double dihedral_angle(const TransformStep::Rest& rest, int t, int s, const Eigen::RowVector2i& edge) {
+  const bool alike = runs_along(rest.triangles, t, edge) != runs_along(rest.triangles, s, edge);
+  return swage::dihedral_angle(rest.normals.row(t), (alike ? 1 : -1) * rest.normals.row(s));
+}
+
+void add_pairs(TransformStep::Rest& rest, const Edges& edges, double feature_angle, double similarity) {
+  const std::vector<std::array<int, 3>> pairs = pairs_of(edges);
   const auto count = static_cast<Eigen::Index>(pairs.size());
   rest.pairs.resize(count, 2);
   rest.pair_edges.resize(count);
@@ -73,27 +73,20 @@ void add_pairs(TransformStep::Rest& rest, const Edges& edges, double feature_ang
     rest.pair_edges[p] = e;
     rest.pair_opposites.row(p) = (rest.vertices.row(v) - rest.vertices.row(w)).normalized();
     rest.pair_similarities[p] =
-        similarity * similarity_weight(dihedral_angle(rest.normals.row(t), rest.normals.row(s)), feature_angle);
+        similarity * similarity_weight(dihedral_angle(rest, t, s, edges.vertices.row(e)), feature_angle);
   }
 }
 
 }  // namespace
 
-std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges,
-                                             int vertex_count) {
+std::vector<StraightTriple> straight_triples(const std::vector<std::vector<int>>& chains, const Edges& edges) {
   std::vector<StraightTriple> triples;
-  for (size_t c = 0; c < chains.size(); ++c) {
+  for (const std::vector<int>& chain : chains) {
     int edge_before = -1;
-    for (size_t i = 0; i + 1 < chains[c].size(); ++i) {
-      const int a = chains[c][i], b = chains[c][i + 1];
-      const bool exist = std::min(a, b) >= 0 && std::max(a, b) < vertex_count;
-      const int edge = exist ? edge_between(edges, a, b) : -1;
-      if (edge < 0) {
-        throw InvalidInput("Reshape: options.straight_chains: chain " + std::to_string(c) + ": vertices " +
-                           std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge");
-      }
-      if (i > 0) triples.push_back({chains[c][i - 1], a, b, edge_before, edge});
-      edge_before = edge;
+    for (size_t i = 0; i + 1 < chain.size(); ++i) {
+      const int edge = edge_between(edges, chain[i], chain[i + 1]);
+      if (edge >= 0 && edge_before >= 0) triples.push_back({chain[i - 1], chain[i], chain[i + 1], edge_before, edge});
+      edge_before = edge;  // None where vertices of one place took the edge with them.
     }
   }
   return triples;
@@ -108,7 +101,8 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   rest.triangle_edges = edges.triangle_edges;
   rest.vertices = unit_mesh.positions;
   rest.edge_vectors = edge_vectors(rest.vertices, edges);
-  rest.normals = unit_normals(rest.vertices, rest.triangles);
+  const std::vector<char> is_flat = flat_triangles(rest.vertices, rest.triangles);
+  rest.normals = lent_normals(rest.vertices, rest.triangles, edges, is_flat);
   rest.mean_edge_length = mean_edge_length(rest.vertices, rest.triangles);
   rest.normal_weight = weights.normal;
   rest.scale_weight = weights.scale;
@@ -120,7 +114,10 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   if (weights.sphericity > 0) rest.transform_sphericity_factor = weights.transform_sphericity / weights.sphericity;
   rest.sphericities.resize(rest.triangles.rows());
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
-    rest.sphericities[t] = weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1));
+    const bool has_curvature = is_flat[static_cast<size_t>(t)] == 0;
+    rest.sphericities[t] =
+        has_curvature ? weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1))
+                      : 0;
   }
   add_pairs(rest, edges, options.feature_angle, weights.similarity);
   return rest;
@@ -158,18 +155,25 @@ Matrix3d pair_block(const TransformStep::Rest& rest, Eigen::Index p) {
   return rest.connect_weight * d * d.transpose() + rest.pair_similarities[p] * o * o.transpose();
 }
 
-VertexSystem vertex_system(const TransformStep::Rest& rest, const std::vector<StraightTriple>& straight,
-                           std::optional<FactorKind> kind, const Poll& poll) {
+VertexSystem vertex_system(const TransformStep::Rest& rest, const Bonds& bonds, std::optional<FactorKind> kind,
+                           const Poll& poll) {
   std::vector<std::pair<int, int>> couplings;
   for (const auto& edge : rest.edges.rowwise()) couplings.emplace_back(edge[0], edge[1]);
-  for (const StraightTriple& triple : straight) {
+  for (const StraightTriple& triple : bonds.straight) {
     if (triple.before != triple.after) couplings.emplace_back(triple.before, triple.after);
+  }
+  for (const Tie& tie : bonds.ties) {
+    for (size_t a = 0; a < tie.factors.size(); ++a) {
+      for (size_t b = a + 1; b < tie.factors.size(); ++b) {
+        couplings.emplace_back(tie.factors[a].first, tie.factors[b].first);
+      }
+    }
   }
   VertexSystem vertices{BlockSystem(static_cast<int>(rest.vertices.rows()), 1, couplings, kind), {}, {}};
   ask(poll);
   vertices.edges = std::make_shared<const BlockSystem::Stars>(vertices.system.stars(rest.edges));
   ask(poll);
-  vertices.sphericity = std::make_shared<const Eigen::VectorXd>(sphericity_values(vertices.system, rest, poll));
+  vertices.constant = std::make_shared<const Eigen::VectorXd>(constant_values(vertices.system, rest, bonds.ties, poll));
   return vertices;
 }
 

@@ -2,20 +2,25 @@
 #include "anderson.h"
 #include "coarse.h"
 #include "plan.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
 
+// Of the box: vertices nearer than this are one. Files keep six digits.
+constexpr double kSamePlace = 1e-6;
+
 constexpr int kPlainPasses = 2;  // Far from the fixed point, and unlike those after: nothing to learn from.
 
-Holds handles_of(const Gesture& gesture, const UnitBox& box, double weight) {
-  Holds handles{{}, Positions(static_cast<Eigen::Index>(gesture.targets.size()), 3), weight};
-  for (const auto& [vertex, target] : gesture.targets) {
-    handles.targets.row(static_cast<Eigen::Index>(handles.vertices.size())) =
-        (target.transpose() - box.corner) / box.extent;
-    handles.vertices.push_back(vertex);
-  }
-  return handles;
+std::vector<Hold> holds_of(const Gesture& gesture) {
+  std::vector<Hold> holds;
+  for (const auto& [vertex, target] : gesture.targets) holds.push_back(Hold::at(vertex, target.transpose()));
+  return holds;
+}
+
+Holds in_box(std::vector<Hold> holds, const UnitBox& box, double weight) {
+  for (Hold& hold : holds) hold.target = (hold.target - box.corner) / box.extent;
+  return {std::move(holds), weight};
 }
 
 /// Where passes start, in the unit box.
@@ -26,21 +31,28 @@ struct Start {
 };
 
 Start start_of(const ReshapePlan& plan, const ReshapeResult* result) {
-  if (!result) return {plan.box.into(plan.mesh.positions), identities(plan.mesh.triangles.rows())};
-  return {plan.box.into(result->unfinished), result->transforms, true};
+  if (!result) return {plan.rest->vertices, identities(plan.mesh.triangles.rows())};
+  Start start{plan.rest->vertices, result->transforms, true};
+  start.positions.topRows(result->unfinished.rows()) = plan.box.into(result->unfinished);
+  return start;
+}
+
+/// Those of the mesh, without a scaffold's.
+Positions mesh_positions(const ReshapePlan& plan, const Positions& solved) {
+  return plan.box.back(solved.topRows(plan.mesh.positions.rows()));
 }
 
 /// Whatever the workspace was used for before, it starts as new.
-Iterate begin(const ReshapePlan& plan, Workspace& work, const Gesture& gesture, const Start& start) {
+Iterate begin(const ReshapePlan& plan, Workspace& work, const std::vector<Hold>& holds, const Start& start) {
   Iterate iterate{work};
   iterate.acceleration = Anderson(plan.options.acceleration_window);
-  iterate.handles = handles_of(gesture, plan.box, plan.weights.handle);
+  iterate.handles = in_box(holds, plan.box, plan.weights.handle);
   iterate.transforms = start.transforms;
   work.step->reset();
   work.vertices.forget();
   if (work.vertices.system.has_factor() != plan.vertices->system.has_factor())
     work.vertices = plan.vertices->unsolved();
-  work.vertices.sphericity = plan.vertices->sphericity;
+  work.vertices.constant = plan.vertices->constant;
   return iterate;
 }
 
@@ -66,11 +78,11 @@ double place(const ReshapePlan& plan, Iterate& iterate, Positions& positions, co
   iterate.before = positions;
   // The published passes solve exactly.
   if (plan.options.solver == ReshapeSolver::published) iterate.work.vertices.system.forget_factor();
-  positions = place_vertices(iterate.work.vertices, *plan.rest, iterate.quadratics, plan.straight,
-                             plan.weights.straightness, {iterate.handles}, iterate.before, poll);
+  positions = place_vertices(iterate.work.vertices, *plan.rest, iterate.quadratics, plan.bonds, {iterate.handles},
+                             iterate.before, poll);
   ask(poll);
   const TransformStep::Energy local = iterate.work.step->fit_transforms(positions, iterate.right_hand_sides);
-  iterate.energy_by_term.push_back(energy_terms(local, positions, plan.straight, plan.weights, iterate.handles));
+  iterate.energy_by_term.push_back(energy_terms(local, positions, plan.bonds, plan.weights, iterate.handles));
   return sum(iterate.energy_by_term.back());
 }
 
@@ -107,44 +119,8 @@ ProgressFn after_preparation(const ProgressFn& progress) {
   };
 }
 
-void finish(const ReshapePlan& plan, Iterate& iterate, const ProgressFn& progress, Positions& positions,
-            ReshapeResult& result) {
-  const Report& report = result.report;
-  const Stopwatch watch(iterate.seconds["finish"]);
-  const Progress now{"finish", report.passes, plan.options.pass_limit, 1, report.energy};
-  try {
-    const Poll poll = sparing([&] { return !progress || progress(now); });
-    if (const std::optional<Positions> spread = spread_dimples(plan, iterate, positions, poll)) {
-      result.finalised = true;
-      positions = *spread;
-    }
-  } catch (const Cancelled&) {
-    result.report.stop = Termination::cancelled;
-  }
-}
-
-ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const ReshapeResult* from,
-                    const ProgressFn& progress) {
-  const ReshapePlan& plan = changing;
-  Start start = start_of(plan, from);
-  ReshapeResult result;
-  result.positions = result.unfinished = from ? from->unfinished : plan.mesh.positions;
-  result.transforms = start.transforms;
-  result.report.stop = Termination::cancelled;
-  if (!prepare(changing, progress)) return result;
-
-  const ProgressFn solving = after_preparation(progress);
-  double coarse_seconds = 0;
-  if (plan.coarse && !from) {
-    const Stopwatch watch(coarse_seconds);
-    std::optional<Transforms> coarse = coarse_transforms(*plan.coarse, plan, gesture, solving);
-    if (!coarse) return result;
-    start.transforms = std::move(*coarse);
-  }
-  const auto work = plan.workspaces.lend([&] { return workspace(plan); });
-  Iterate iterate = begin(plan, *work, gesture, start);
-  if (plan.coarse) iterate.seconds["coarse_start"] = coarse_seconds;
-  Positions positions = std::move(start.positions);
+Report passes(const ReshapePlan& plan, Iterate& iterate, const StopRule& stop, const ProgressFn& progress,
+              Positions& positions) {
   Alternation steps{[&](Positions& placed, const Poll& poll) { return place(plan, iterate, placed, poll); },
                     [&](const Positions&, const Poll& poll) { fit(plan, iterate, poll); }};
   if (plan.options.solver == ReshapeSolver::steady) {
@@ -152,22 +128,79 @@ ReshapeResult solve(ReshapePlan& changing, const Gesture& gesture, const Reshape
       return next_start(iterate, before, end, poll);
     };
   }
-  result.report = alternate(stop_rule(plan, start.warm), solving, positions, steps);
-  result.unfinished = plan.box.back(positions);
+  return alternate(stop, progress, positions, steps);
+}
+
+void finish(const ReshapePlan& plan, Iterate& iterate, const ProgressFn& progress, Positions& positions,
+            ReshapeResult& result) {
+  const Report& report = result.report;
+  const Stopwatch watch(iterate.seconds["finish"]);
+  const Progress now{"finish", report.passes, plan.options.pass_limit, 1, report.energy};
+  const std::function<bool()> asked = [&] { return !progress || progress(now); };
+  const GoOn go_on = [&](Positions& from) {
+    iterate.acceleration = Anderson(plan.options.acceleration_window);
+    const Report more = passes(
+        plan, iterate, stop_rule(plan, true), [&](const Progress&) { return asked(); }, from);
+    return more.stop != Termination::cancelled;
+  };
+  const std::vector<std::map<std::string, double>> energies = iterate.energy_by_term;
+  const Holds handles = iterate.handles;
+  try {
+    std::string told;
+    if (const std::optional<Positions> better = finished(plan, iterate, positions, go_on, sparing(asked), told)) {
+      result.finalised = true;
+      positions = *better;
+    }
+    if (!told.empty()) result.report.paths["finish"] = told;
+  } catch (const Cancelled&) {
+    result.report.stop = Termination::cancelled;
+  }
+  iterate.energy_by_term = energies;
+  iterate.handles = handles;
+}
+
+ReshapeResult unchanged(const ReshapePlan& plan, const ReshapeResult* from) {
+  ReshapeResult result;
+  result.positions = result.unfinished = from ? from->unfinished : plan.mesh.positions;
+  result.transforms = from ? from->transforms : identities(plan.mesh.triangles.rows());
+  result.report.stop = Termination::cancelled;
+  return result;
+}
+
+ReshapeResult solve(ReshapePlan& changing, const std::vector<Hold>& holds, const ReshapeResult* from,
+                    const ProgressFn& progress) {
+  const ReshapePlan& plan = changing;
+  ReshapeResult result = unchanged(plan, from);
+  if (!prepare(changing, progress)) return result;
+
+  Start start = start_of(plan, from);
+  const ProgressFn solving = after_preparation(progress);
+  double coarse_seconds = 0;
+  if (plan.coarse && !from) {
+    const Stopwatch watch(coarse_seconds);
+    std::optional<Transforms> coarse = coarse_transforms(*plan.coarse, plan, holds, solving);
+    if (!coarse) return result;
+    start.transforms = std::move(*coarse);
+  }
+  const auto work = plan.workspaces.lend([&] { return workspace(plan); });
+  Iterate iterate = begin(plan, *work, holds, start);
+  if (plan.coarse) iterate.seconds["coarse_start"] = coarse_seconds;
+  Positions positions = std::move(start.positions);
+  result.report = passes(plan, iterate, stop_rule(plan, start.warm), solving, positions);
+  result.unfinished = mesh_positions(plan, positions);
+  result.transforms = iterate.transforms;
   if (plan.options.finalise && result.report.stop != Termination::cancelled) {
     finish(plan, iterate, solving, positions, result);
   }
-  result.positions = plan.box.back(positions);
-  result.transforms = std::move(iterate.transforms);
-  tell(plan, iterate, start.warm, result.report);
+  result.positions = mesh_positions(plan, positions);
+  tell(plan, iterate, start.warm, positions, result.report);
   return result;
 }
 
 /// The published solver is never another, whatever rounds in another order.
-std::optional<Renumbered> renumbered(const ReshapeOptions& options, const Mesh& mesh, const Edges& edges) {
+bool is_worth_an_order(const ReshapeOptions& options, const Mesh& mesh) {
   constexpr Eigen::Index kWorthwhile = 1'000;  // Vertices. All of fewer are in the cache.
-  if (options.solver == ReshapeSolver::published || mesh.positions.rows() < kWorthwhile) return std::nullopt;
-  return Renumbered(mesh, edges);
+  return options.solver == ReshapeSolver::steady && mesh.positions.rows() >= kWorthwhile;
 }
 
 /// What `call` returns; where it throws for an element, that as the caller numbers it.
@@ -176,23 +209,40 @@ auto in_given_numbers(const ReshapePlan& plan, const Call& call) {
   try {
     return call();
   } catch (const Indefinite& error) {
-    if (!plan.renumbered) throw;
-    const bool vertex = error.unknowns() == plan.mesh.positions.size();
+    if (!plan.given) throw;
+    const bool is_vertex = error.unknowns() == plan.rest->vertices.size();
+    if (is_vertex && error.element() >= plan.mesh.positions.rows()) throw;  // A scaffold's.
     throw Indefinite(error.unknowns(),
-                     vertex ? plan.renumbered->vertex(error.element()) : plan.renumbered->triangle(error.element()));
+                     is_vertex ? plan.given->vertex(error.element()) : plan.given->triangle(error.element()));
+  }
+}
+
+/// Vertices of no triangle that are handles go where they are asked to.
+void place_loose(const Given& given, const Gesture& gesture, ReshapeResult& result) {
+  for (const auto& [vertex, target] : gesture.targets) {
+    if (given.is_loose(vertex)) result.positions.row(vertex) = result.unfinished.row(vertex) = target.transpose();
   }
 }
 
 ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const ReshapeResult* start,
                              const ProgressFn& progress) {
-  const Mesh& given = plan.renumbered ? plan.renumbered->given() : plan.mesh;
+  const Mesh& given = plan.given ? plan.given->mesh() : plan.mesh;
   check(gesture, given.positions, given.triangles);
   if (start) check_start(*start, plan.options, given);
+  std::vector<Hold> holds = holds_of(gesture);
+  if (plan.given) holds = plan.given->into(holds);
+  if (holds.empty()) {
+    throw InvalidInput(
+        "Reshape::solve: gesture: no handle is on the surface, only on vertices that no triangle has; "
+        "pin or move others");
+  }
   return in_given_numbers(plan, [&] {
-    if (!plan.renumbered) return solve(plan, gesture, start, progress);
+    if (!plan.given) return solve(plan, holds, start, progress);
     std::optional<ReshapeResult> from;
-    if (start) from = plan.renumbered->into(*start);
-    return plan.renumbered->back(solve(plan, plan.renumbered->into(gesture), start ? &*from : nullptr, progress));
+    if (start) from = plan.given->into(*start);
+    ReshapeResult result = plan.given->back(solve(plan, holds, start ? &*from : nullptr, progress));
+    place_loose(*plan.given, gesture, result);
+    return result;
   });
 }
 
@@ -202,22 +252,19 @@ Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, c
   check(positions, triangles);
   Mesh mesh{positions, triangles};
   check_options(options, mesh);
-  Edges edges = edges_of(mesh.triangles);
-  check_surface(mesh, edges);
-  const auto vertex_count = static_cast<int>(mesh.positions.rows());
-  std::vector<StraightTriple> straight = straight_triples(options.straight_chains, edges, vertex_count);
-  const UnitBox box = unit_box(mesh.positions);
-  std::optional<Renumbered> other = renumbered(options, mesh, edges);
-  ReshapeOptions own = options;
-  if (other) {
-    mesh = other->mesh();
-    own = other->into(std::move(own));
-    edges = edges_of(mesh.triangles);
-    straight = straight_triples(own.straight_chains, edges, vertex_count);
-  }
+  check_chains(options.straight_chains, mesh);
+  Surface surface = surface_of(mesh, kSamePlace * unit_box(mesh.positions).extent);
+  check_surface(surface);
+  const SurfaceCounts counts = surface.counts;
+  std::optional<Given> given;
+  const bool in_order = is_worth_an_order(options, surface.mesh);
+  if (in_order || !surface.is_as_given()) given.emplace(std::move(mesh), surface, in_order);
+  ReshapeOptions own = given ? given->into(options) : options;
   if (!own.backend) own.backend = cpu_backend();
-  plan_.reset(
-      new ReshapePlan{std::move(own), std::move(other), std::move(mesh), box, std::move(edges), std::move(straight)});
+  const UnitBox box = unit_box(surface.mesh.positions);
+  Bonds bonds{straight_triples(own.straight_chains, surface.edges)};
+  plan_.reset(new ReshapePlan{std::move(own), std::move(given), std::move(surface.mesh), counts, box,
+                              std::move(surface.edges), std::move(bonds)});
 }
 
 Reshape::~Reshape() = default;

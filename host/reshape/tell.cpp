@@ -1,5 +1,6 @@
 // What a solve's report tells of it.
 #include <numeric>
+#include <sstream>
 #include <string>
 
 #include "coarse.h"
@@ -46,15 +47,70 @@ std::map<std::string, std::string> paths(const ReshapePlan& plan, const Workspac
   return {{"vertex_step", fell_back ? path(LinearSolver::factor, "multigrid did not converge")
                                     : path(plan.paths.vertices, plan.paths.why_vertices)},
           {"transform_step", path(plan.paths.transforms, plan.paths.why_transforms)},
+          {"components", plan.paths.components},
           {"start", start}};
+}
+
+/// What of the mesh is not as of one well-made surface, and what was done about it.
+void warn_of_shape(const ReshapePlan& plan, Report& report) {
+  const auto warn = [&](int count, const char* one, const char* many, const char* what) {
+    if (count == 0) return;
+    report.warnings.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + ": " + what);
+  };
+  const SurfaceCounts& counts = plan.counts;
+  warn(counts.merged, "vertex is at another's place", "vertices are at others' places",
+       "what is at one place stays so");
+  warn(counts.loose, "vertex has no triangle", "vertices have no triangle", "carried by the nearest surface");
+  warn(counts.repeated, "triangle repeats another", "triangles repeat others", "left out of the solve");
+  warn(counts.collapsed, "triangle has two corners at one place", "triangles have two corners at one place",
+       "left out of the solve");
+  warn(counts.turned, "triangle winds against its neighbours", "triangles wind against their neighbours",
+       "turned for the solve");
+  warn(plan.flat_triangles, "triangle has no area", "triangles have no area", "they go with their neighbours");
+  const Lists& triangles = plan.edges.triangles;
+  int open = 0, crowded = 0;
+  for (int e = 0; e < triangles.size(); ++e) {
+    open += triangles[e].size() == 1 ? 1 : 0;
+    crowded += triangles[e].size() > 2 ? 1 : 0;
+  }
+  warn(open, "edge has one triangle", "edges have one triangle", "the surface ends there");
+  warn(crowded, "edge has more than two triangles", "edges have more than two triangles",
+       "each two of them are neighbours");
+}
+
+/// Handles that are not where they were asked to.
+void warn_of_misses(const ReshapePlan& plan, const Holds& handles, const Positions& positions, Report& report) {
+  constexpr double kFar = 0.01;
+  const double diagonal = box_diagonal(plan.rest->vertices.topRows(plan.mesh.positions.rows()));
+  int count = 0;
+  const Hold* worst = nullptr;
+  double most = kFar * diagonal;
+  for (const Hold& hold : handles.points) {
+    const double miss = (hold.point(positions) - hold.target).norm();
+    if (miss > kFar * diagonal) ++count;
+    if (miss > most) {
+      most = miss;
+      worst = &hold;
+    }
+  }
+  if (!worst) return;
+  const int vertex = plan.given ? plan.given->vertex(worst->vertex()) : worst->vertex();
+  std::ostringstream words;
+  words.precision(3);
+  words << count << (count == 1 ? " handle" : " handles") << " missed by more than 1 % of the box's diagonal, vertex "
+        << vertex << " by " << 100 * most / diagonal
+        << " %: keeping the normals of the surface there resists; move more of it along, or less far";
+  report.warnings.push_back(words.str());
 }
 
 }  // namespace
 
-void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report) {
+void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, const Positions& positions, Report& report) {
   if (report.passes > 0) report.energy_by_term = iterate.energy_by_term[static_cast<size_t>(report.best_pass)];
   report.bytes = bytes_by_part(plan, iterate);
-  report.paths = paths(plan, iterate.work, warm);
+  report.paths.merge(paths(plan, iterate.work, warm));
+  warn_of_shape(plan, report);
+  warn_of_misses(plan, iterate.handles, positions, report);
   report.seconds = iterate.seconds;
   report.seconds["precompute"] = plan.prepare_seconds;
   report.seconds["solve"] = std::accumulate(iterate.seconds.begin(), iterate.seconds.end(), 0.0,

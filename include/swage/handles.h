@@ -22,8 +22,8 @@ struct Gesture {
   void add(int vertex, const Eigen::Vector3d& target);
 };
 
-/// Throws InvalidInput, naming the vertex, where a handle is not a vertex of the mesh, a target is not finite, or a
-/// connected component of the mesh has no handle (it could be anywhere).
+/// Throws InvalidInput where there is no handle, and, naming the vertex, where one is not a vertex of the mesh or its
+/// target is not finite.
 void check(const Gesture& gesture, const PositionsRef& positions, const TrianglesRef& triangles);
 
 /// Reads the gestures of a `.deform` file: a JSON list of {label, displacements: {vertex: [dx, dy, dz]}}, with

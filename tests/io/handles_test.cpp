@@ -48,19 +48,11 @@ std::string complaint(const Gesture& gesture, const Mesh& mesh) {
   return message_of<InvalidInput>([&] { check(gesture, mesh.positions, mesh.triangles); });
 }
 
-TEST(Gesture, EveryComponentNeedsAHandle) {
+TEST(Gesture, OneHandleIsEnough) {
   const Mesh mesh = three_parts();
-  const int second = static_cast<int>(box({1, 1, 1}, 1).positions.rows());
-  const int lone = static_cast<int>(mesh.positions.rows()) - 1;
   Gesture gesture;
-  EXPECT_THAT(complaint(gesture, mesh), AllOf(HasSubstr("component 0 (12 triangles"), HasSubstr("2 other components")));
+  EXPECT_THAT(complaint(gesture, mesh), HasSubstr("no handles"));
   gesture.add(1, Eigen::Vector3d::Zero());
-  EXPECT_THAT(complaint(gesture, mesh), AllOf(HasSubstr("component 1 (48 triangles, vertex " + std::to_string(second)),
-                                              HasSubstr("--pin component:1")));
-  gesture.add(second + 3, Eigen::Vector3d::Zero());
-  EXPECT_THAT(complaint(gesture, mesh),
-              AllOf(HasSubstr("isolated vertex " + std::to_string(lone)), HasSubstr("--pin component:2")));
-  gesture.add(lone, Eigen::Vector3d::Zero());
   EXPECT_NO_THROW(check(gesture, mesh.positions, mesh.triangles));
 }
 

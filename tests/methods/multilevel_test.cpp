@@ -60,13 +60,13 @@ Pull pull_of(const TransformStep::Rest& rest) {
   Transforms transforms = identities(rest.triangles.rows());
   transforms.col(0).array() += 0.5;
   cpu_backend()->transform(rest)->fit_edges(transforms, pull.quadratics);
-  pull.holds = {{{0, 5}, rest.vertices.topRows(2), 1e5}};
+  pull.holds = {{{Hold::at(0, rest.vertices.row(0)), Hold::at(5, rest.vertices.row(1))}, 1e5}};
   return pull;
 }
 
 ElementGraph vertex_graph_of(const TransformStep::Rest& rest) {
   const Pull pull = pull_of(rest);
-  return vertex_graph(rest, pull.quadratics, pull.holds);
+  return vertex_graph(rest, pull.quadratics, {}, pull.holds);
 }
 
 TEST(ElementGraphs, OfTheTransformStepIsItsMatrix) {
@@ -82,8 +82,8 @@ TEST(ElementGraphs, OfTheVertexStepIsItsMatrixButForAnUpperBoundOnSphericity) {
     const TransformStep::Rest rest = steady_rest(test::torus(), curvature);
     const Pull pull = pull_of(rest);
     VertexSystem vertices = vertex_system(rest, {}, FactorKind::none);
-    assemble(vertices, rest, pull.quadratics, {}, 0, pull.holds);
-    const ElementGraph graph = vertex_graph(rest, pull.quadratics, pull.holds);
+    assemble(vertices, rest, pull.quadratics, {}, pull.holds);
+    const ElementGraph graph = vertex_graph(rest, pull.quadratics, {}, pull.holds);
     const Eigen::VectorXd x = waves(rest.vertices.size()), exact = vertices.system.times(x), bound = product(graph, x);
     if (curvature == 0) {
       EXPECT_LT((bound - exact).norm(), 1e-6 * exact.norm());
@@ -196,13 +196,13 @@ TEST(VertexStep, WhereMultigridFailsAFactorIsMade) {
   std::vector<int> chain(50);
   for (int i = 0; i < 50; ++i) chain[static_cast<size_t>(i)] = i + 3;
   const Edges edges = edges_of(mesh.triangles);
-  const auto straight = straight_triples({chain}, edges, static_cast<int>(mesh.positions.rows()));
+  const Bonds bonds{straight_triples({chain}, edges), 1e9};
   Pull pull = pull_of(rest);
-  pull.holds[0].targets(0, 2) += 0.3;
-  VertexSystem exact = vertex_system(rest, straight, FactorKind::simplicial);
-  VertexSystem loose = vertex_system(rest, straight, FactorKind::none);
-  const Positions expected = place_vertices(exact, rest, pull.quadratics, straight, 1e9, pull.holds, rest.vertices);
-  const Positions found = place_vertices(loose, rest, pull.quadratics, straight, 1e9, pull.holds, rest.vertices);
+  pull.holds[0].points[0].target[2] += 0.3;
+  VertexSystem exact = vertex_system(rest, bonds, FactorKind::simplicial);
+  VertexSystem loose = vertex_system(rest, bonds, FactorKind::none);
+  const Positions expected = place_vertices(exact, rest, pull.quadratics, bonds, pull.holds, rest.vertices);
+  const Positions found = place_vertices(loose, rest, pull.quadratics, bonds, pull.holds, rest.vertices);
   EXPECT_TRUE(loose.system.has_factor());
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6);
 }

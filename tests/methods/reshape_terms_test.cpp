@@ -19,7 +19,7 @@ struct Case {
   ReshapeOptions options;
   Mesh mesh = test::transformed(test::sphere(0.5, 1), 1, {0.5, 0.5, 0.5});
   Edges edges = edges_of(mesh.triangles);
-  std::vector<StraightTriple> straight;
+  Bonds bonds;
   TransformStep::Rest rest;
   Transforms transforms;
   Positions positions;
@@ -29,7 +29,7 @@ struct Case {
     options.weights = weights;
     const Curvatures curvatures = Curvatures::Constant(mesh.triangles.rows(), 2, 2);
     rest = rest_shape(options, mesh, edges, curvatures);
-    straight = straight_triples({chain()}, edges, static_cast<int>(mesh.positions.rows()));
+    bonds = {straight_triples({chain()}, edges), weights.straightness};
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-0.2, 0.2);
     transforms = identities(rest.triangles.rows()).unaryExpr([&](double x) { return x + number(random); });
@@ -80,13 +80,12 @@ Transforms as_transforms(const Eigen::VectorXd& x) { return Eigen::Map<const Tra
 
 /// 2 (A x - b) of the vertex step with these weights, less that of the transform term alone where asked.
 Eigen::VectorXd vertex_gradient(const Case& c) {
-  VertexSystem vertices = vertex_system(c.rest, c.straight);
+  VertexSystem vertices = vertex_system(c.rest, c.bonds);
   const auto step = cpu_backend()->transform(c.rest);
   TransformStep::EdgeQuadratics quadratics;
   step->fit_edges(c.transforms, quadratics);
-  const Holds handles{{3, 5}, c.positions.topRows(2), c.options.weights->handle};
-  const Eigen::VectorXd b =
-      assemble(vertices, c.rest, quadratics, c.straight, c.options.weights->straightness, {handles});
+  const Holds handles{{Hold::at(3, c.positions.row(0)), Hold::at(5, c.positions.row(1))}, c.options.weights->handle};
+  const Eigen::VectorXd b = assemble(vertices, c.rest, quadratics, c.bonds, {handles});
   return 2 * (vertices.system.times(flat(c.positions)) - b);
 }
 
@@ -167,7 +166,7 @@ TEST(VertexStepTerms, Straightness) {
   const Case c(weights);
   expect_gradient(vertex_gradient_of_term(weigh), flat(c.positions), [&](const Eigen::VectorXd& x) {
     const Positions p = as_positions(x);
-    const StraightTriple& triple = c.straight.front();
+    const StraightTriple& triple = c.bonds.straight.front();
     return 3 * ((p.row(triple.before) - p.row(triple.middle)) / target_length(c, triple.edge_before) -
                 (p.row(triple.middle) - p.row(triple.after)) / target_length(c, triple.edge_after))
                    .squaredNorm();

@@ -1,0 +1,203 @@
+#include "surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace swage {
+namespace {
+
+/// The cells of a grid, twice the tolerance wide, that a point is in or as near to as that.
+class Grid {
+ public:
+  struct Entry {
+    std::uint64_t cell;  ///< Its hash: cells that share one only cost comparisons.
+    int vertex;
+    bool operator<(const Entry& other) const { return std::pair(cell, vertex) < std::pair(other.cell, other.vertex); }
+  };
+
+  Grid(const Positions& positions, double tolerance)
+      : corner_(positions.colwise().minCoeff()), tolerance_(tolerance), width_(tolerance > 0 ? 2 * tolerance : 1) {}
+
+  void add(const Eigen::RowVector3d& point, int vertex, std::vector<Entry>& entries) const {
+    const Cell low = cell_of(point.array() - tolerance_), high = cell_of(point.array() + tolerance_);
+    for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int64_t z = low[2]; z <= high[2]; ++z) entries.push_back({hash({x, y, z}), vertex});
+      }
+    }
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  Cell cell_of(const Eigen::RowVector3d& point) const {
+    Cell cell;
+    for (int k = 0; k < 3; ++k) {
+      cell[static_cast<size_t>(k)] = static_cast<std::int64_t>(std::floor((point[k] - corner_[k]) / width_));
+    }
+    return cell;
+  }
+
+  static std::uint64_t hash(const Cell& cell) {
+    std::uint64_t hash = 0;
+    for (const std::int64_t c : cell) {
+      hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
+      hash ^= hash >> 29;
+    }
+    return hash;
+  }
+
+  Eigen::RowVector3d corner_;
+  double tolerance_, width_;
+};
+
+/// Of each vertex the first at its place.
+std::vector<int> firsts_at_places(const Positions& positions, double tolerance) {
+  std::vector<int> firsts(static_cast<size_t>(positions.rows()));
+  std::iota(firsts.begin(), firsts.end(), 0);
+  const Grid grid(positions, tolerance);
+  std::vector<Grid::Entry> entries;
+  entries.reserve(firsts.size());
+  for (int v = 0; v < positions.rows(); ++v) grid.add(positions.row(v), v, entries);
+  std::sort(entries.begin(), entries.end());
+  std::vector<int> places;
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (i == 0 || entries[i].cell != entries[i - 1].cell) places.clear();
+    const int v = entries[i].vertex;
+    const auto at = std::find_if(places.begin(), places.end(), [&](int other) {
+      return (positions.row(other) - positions.row(v)).norm() <= tolerance;
+    });
+    if (at == places.end()) {
+      places.push_back(v);
+    } else {
+      int& first = firsts[static_cast<size_t>(v)];
+      first = std::min(first, *at);
+    }
+  }
+  for (int& first : firsts) first = firsts[static_cast<size_t>(first)];  // The first's own is known by then.
+  return firsts;
+}
+
+/// Of each triangle whether another before it has the same three vertices.
+std::vector<char> repeats(const Triangles& triangles, const Edges& edges) {
+  std::vector<char> is_repeated(static_cast<size_t>(triangles.rows()), 0);
+  for (int e = 0; e < edges.triangles.size(); ++e) {
+    const Lists::Range beside = edges.triangles[e];
+    const auto opposite = [&](int t) { return triangles.row(t).sum() - edges.vertices.row(e).sum(); };
+    for (int i = 1; i < beside.size(); ++i) {
+      for (int j = 0; j < i && is_repeated[static_cast<size_t>(beside[i])] == 0; ++j) {
+        if (opposite(beside[i]) == opposite(beside[j])) is_repeated[static_cast<size_t>(beside[i])] = 1;
+      }
+    }
+  }
+  return is_repeated;
+}
+
+/// Of `kept` triangles, those that are not left out.
+void leave_out(const std::vector<char>& left_out, std::vector<int>& kept) {
+  size_t count = 0;
+  for (size_t i = 0; i < kept.size(); ++i) {
+    if (left_out[i] == 0) kept[count++] = kept[i];
+  }
+  kept.resize(count);
+}
+
+void number_vertices(const std::vector<int>& firsts, const Triangles& joined, Surface& surface) {
+  std::vector<char> is_used(firsts.size(), 0);
+  for (const int t : surface.triangles) {
+    for (int k = 0; k < 3; ++k) is_used[static_cast<size_t>(joined(t, k))] = 1;
+  }
+  surface.vertex_of.assign(firsts.size(), -1);
+  for (size_t v = 0; v < firsts.size(); ++v) {
+    const auto first = static_cast<size_t>(firsts[v]);
+    if (is_used[first] == 0) {
+      ++surface.counts.loose;
+    } else if (first == v) {
+      surface.vertex_of[v] = static_cast<int>(surface.vertices.size());
+      surface.vertices.push_back(static_cast<int>(v));
+    } else {
+      surface.vertex_of[v] = surface.vertex_of[first];
+      ++surface.counts.merged;
+    }
+  }
+}
+
+/// Of each triangle given the one with its vertices that is kept.
+void number_triangles(const Triangles& joined, Surface& surface) {
+  surface.triangle_of.assign(static_cast<size_t>(joined.rows()), -1);
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    surface.triangle_of[static_cast<size_t>(surface.triangles[t])] = static_cast<int>(t);
+  }
+  if (surface.counts.repeated == 0) return;
+  const auto corners = [&](int t) {
+    std::array<int, 3> sorted{joined(t, 0), joined(t, 1), joined(t, 2)};
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  std::vector<int> order(static_cast<size_t>(joined.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return std::pair(corners(a), a) < std::pair(corners(b), b); });
+  for (size_t i = 1; i < order.size(); ++i) {
+    if (corners(order[i]) != corners(order[i - 1])) continue;
+    surface.triangle_of[static_cast<size_t>(order[i])] = surface.triangle_of[static_cast<size_t>(order[i - 1])];
+  }
+}
+
+/// Turns triangles, and their edges with them, so that neighbours wind alike: as the first of each part does.
+int wind_alike(Triangles& triangles, Edges& edges) {
+  std::vector<char> is_met(static_cast<size_t>(triangles.rows()), 0);
+  std::vector<int> walk;
+  int turned = 0;
+  for (int first = 0; first < triangles.rows(); ++first) {
+    if (std::exchange(is_met[static_cast<size_t>(first)], 1) != 0) continue;
+    walk.assign(1, first);
+    for (size_t next = 0; next < walk.size(); ++next) {
+      const int t = walk[next];
+      for (const int e : Eigen::RowVector3i(edges.triangle_edges.row(t))) {
+        const Lists::Range beside = edges.triangles[e];
+        if (beside.size() != 2) continue;
+        const int other = beside[0] == t ? beside[1] : beside[0];
+        if (std::exchange(is_met[static_cast<size_t>(other)], 1) != 0) continue;
+        walk.push_back(other);
+        const Eigen::RowVector2i edge = edges.vertices.row(e);
+        if (runs_along(triangles, t, edge) != runs_along(triangles, other, edge)) continue;
+        std::swap(triangles(other, 1), triangles(other, 2));
+        std::swap(edges.triangle_edges(other, 0), edges.triangle_edges(other, 2));
+        ++turned;
+      }
+    }
+  }
+  return turned;
+}
+
+}  // namespace
+
+Surface surface_of(const Mesh& mesh, double tolerance) {
+  Surface surface;
+  const std::vector<int> firsts = firsts_at_places(mesh.positions, tolerance);
+  const Triangles joined = mesh.triangles.unaryExpr([&](int v) { return firsts[static_cast<size_t>(v)]; });
+  for (int t = 0; t < joined.rows(); ++t) {
+    const bool is_one = joined(t, 0) != joined(t, 1) && joined(t, 1) != joined(t, 2) && joined(t, 2) != joined(t, 0);
+    is_one ? surface.triangles.push_back(t) : void(++surface.counts.collapsed);
+  }
+  const Triangles whole = joined(surface.triangles, Eigen::all);
+  surface.edges = edges_of(whole);
+  const std::vector<char> repeated = repeats(whole, surface.edges);
+  surface.counts.repeated = static_cast<int>(std::count(repeated.begin(), repeated.end(), 1));
+  leave_out(repeated, surface.triangles);
+  number_vertices(firsts, joined, surface);
+  number_triangles(joined, surface);
+  surface.mesh.positions = mesh.positions(surface.vertices, Eigen::all);
+  surface.mesh.triangles =
+      joined(surface.triangles, Eigen::all).unaryExpr([&](int v) { return surface.vertex_of[static_cast<size_t>(v)]; });
+  if (surface.mesh.triangles != whole) surface.edges = edges_of(surface.mesh.triangles);
+  surface.counts.turned = wind_alike(surface.mesh.triangles, surface.edges);
+  return surface;
+}
+
+}  // namespace swage

@@ -1,0 +1,134 @@
+#include "given.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "nearest.h"
+#include "plan.h"
+
+namespace swage {
+namespace {
+
+/// Numbers of what stands in `order`, and of each given where it went.
+void put_in_order(const std::vector<int>& order, std::vector<int>& numbers, std::vector<int>& places) {
+  const std::vector<int> place = inverse(order);
+  std::vector<int> ordered(numbers.size());
+  for (size_t i = 0; i < order.size(); ++i) ordered[i] = numbers[static_cast<size_t>(order[i])];
+  numbers = std::move(ordered);
+  for (int& p : places) p = p < 0 ? p : place[static_cast<size_t>(p)];
+}
+
+Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> matrix(const Transforms& transforms, int triangle) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(transforms.row(triangle).data());
+}
+
+}  // namespace
+
+Given::Given(Mesh mesh, Surface& surface, bool in_order)
+    : mesh_(std::move(mesh)),
+      vertices_(std::move(surface.vertices)),
+      triangles_(std::move(surface.triangles)),
+      vertex_of_(std::move(surface.vertex_of)),
+      triangle_of_(std::move(surface.triangle_of)) {
+  if (in_order) {
+    const Numbering numbering = by_neighbourhood(surface.mesh, surface.edges);
+    surface.mesh = swage::in_order(surface.mesh, numbering);
+    surface.edges = edges_of(surface.mesh.triangles);
+    put_in_order(numbering.vertices, vertices_, vertex_of_);
+    put_in_order(numbering.triangles, triangles_, triangle_of_);
+  }
+  list_loose(surface.mesh);
+  find_stand_ins(surface.mesh);
+}
+
+void Given::list_loose(const Mesh& surface) {
+  if (std::find(vertex_of_.begin(), vertex_of_.end(), -1) == vertex_of_.end()) return;
+  const BoxTree tree(surface.positions, surface.triangles);
+  for (int v = 0; v < static_cast<int>(vertex_of_.size()); ++v) {
+    if (!is_loose(v)) continue;
+    const Eigen::RowVector3d point = mesh_.positions.row(v);
+    const Foot foot = tree.nearest(point.transpose());
+    const Eigen::RowVector3i corners = surface.triangles.row(foot.triangle);
+    Loose loose{v, foot.triangle, {corners[0], corners[1], corners[2]}, foot.barycentric, point};
+    for (int k = 0; k < 3; ++k) loose.offset -= foot.barycentric[k] * surface.positions.row(corners[k]);
+    loose_.push_back(loose);
+  }
+}
+
+void Given::find_stand_ins(const Mesh& surface) {
+  if (std::find(triangle_of_.begin(), triangle_of_.end(), -1) == triangle_of_.end()) return;
+  std::vector<int> at_vertex(vertices_.size(), -1);
+  for (int t = 0; t < surface.triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) at_vertex[static_cast<size_t>(surface.triangles(t, k))] = t;
+  }
+  for (size_t t = 0; t < triangle_of_.size(); ++t) {
+    for (int k = 0; k < 3 && triangle_of_[t] < 0; ++k) {
+      const int v = vertex_of_[static_cast<size_t>(mesh_.triangles(static_cast<Eigen::Index>(t), k))];
+      if (v >= 0) triangle_of_[t] = at_vertex[static_cast<size_t>(v)];
+    }
+  }
+}
+
+ReshapeOptions Given::into(ReshapeOptions options) const {
+  if (options.unit_box_curvatures) {
+    options.unit_box_curvatures = Curvatures((*options.unit_box_curvatures)(triangles_, Eigen::all));
+  }
+  for (std::vector<int>& chain : options.straight_chains) {
+    for (int& vertex : chain) vertex = vertex_of_[static_cast<size_t>(vertex)];
+    chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
+  }
+  return options;
+}
+
+std::vector<Hold> Given::into(const std::vector<Hold>& holds) const {
+  std::vector<Hold> result;
+  for (Hold hold : holds) {
+    if (std::any_of(hold.vertices.begin(), hold.vertices.end(), [&](int v) { return is_loose(v); })) continue;
+    for (size_t k = 0; k < 3; ++k) {
+      const int v = std::exchange(hold.vertices[k], vertex_of_[static_cast<size_t>(hold.vertices[k])]);
+      hold.target -= hold.factors[static_cast<Eigen::Index>(k)] * aside(v);
+    }
+    result.push_back(hold);
+  }
+  return result;
+}
+
+ReshapeResult Given::into(const ReshapeResult& start) const {
+  ReshapeResult result;
+  result.unfinished = start.unfinished(vertices_, Eigen::all);
+  result.transforms = start.transforms(triangles_, Eigen::all);
+  return result;
+}
+
+Eigen::RowVector3d Given::aside(int v) const {
+  return mesh_.positions.row(v) - mesh_.positions.row(vertex(vertex_of_[static_cast<size_t>(v)]));
+}
+
+Positions Given::back(const Positions& positions, const Transforms& transforms) const {
+  Positions given(mesh_.positions.rows(), 3);
+  for (int v = 0; v < given.rows(); ++v) {
+    if (is_loose(v)) continue;
+    given.row(v) = positions.row(vertex_of_[static_cast<size_t>(v)]) + aside(v);
+  }
+  for (const Loose& loose : loose_) {
+    Eigen::RowVector3d point = (matrix(transforms, loose.triangle) * loose.offset.transpose()).transpose();
+    for (size_t k = 0; k < 3; ++k)
+      point += loose.barycentric[static_cast<Eigen::Index>(k)] * positions.row(loose.corners[k]);
+    given.row(loose.vertex) = point;
+  }
+  return given;
+}
+
+ReshapeResult Given::back(const ReshapeResult& solved) const {
+  ReshapeResult result = solved;
+  result.positions = back(solved.positions, solved.transforms);
+  result.unfinished = back(solved.unfinished, solved.transforms);
+  result.transforms = identities(mesh_.triangles.rows());
+  for (size_t t = 0; t < triangle_of_.size(); ++t) {
+    if (triangle_of_[t] >= 0)
+      result.transforms.row(static_cast<Eigen::Index>(t)) = solved.transforms.row(triangle_of_[t]);
+  }
+  return result;
+}
+
+}  // namespace swage

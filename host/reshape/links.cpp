@@ -1,0 +1,228 @@
+#include "links.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "measures.h"
+#include "nearest.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTouch = 1e-4;  // Of the unit box: how near is together.
+// A contact is as stiff as that many edges of mean length.
+constexpr double kContactStiffness = 10;
+constexpr double kLinkWeight = 1e-2;  // The paper's w_edge.
+constexpr size_t kMostOfTwo = 100;    // Contacts of two components, links of a group: more say nothing new.
+
+/// Sets that grow together, each told by its lowest member.
+class Sets {
+ public:
+  explicit Sets(int count) : parents_(static_cast<size_t>(count)) { std::iota(parents_.begin(), parents_.end(), 0); }
+  int of(int i) {
+    while (parents_[static_cast<size_t>(i)] != i) {
+      int& parent = parents_[static_cast<size_t>(i)];
+      i = parent = parents_[static_cast<size_t>(parent)];
+    }
+    return i;
+  }
+  void join(int i, int j) {
+    const auto [low, high] = std::minmax({of(i), of(j)});
+    parents_[static_cast<size_t>(high)] = low;
+  }
+  int count() {
+    int sets = 0;
+    for (int i = 0; i < static_cast<int>(parents_.size()); ++i) sets += of(i) == i ? 1 : 0;
+    return sets;
+  }
+
+ private:
+  std::vector<int> parents_;
+};
+
+/// The mesh, its components, and the tree to ask.
+struct Parts {
+  const Mesh& mesh;
+  std::vector<int> of_vertex;
+  int count;
+  BoxTree tree;
+
+  explicit Parts(const Mesh& unit_mesh)
+      : mesh(unit_mesh),
+        of_vertex(components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()))),
+        count(1 + *std::max_element(of_vertex.begin(), of_vertex.end())),
+        tree(unit_mesh.positions, unit_mesh.triangles) {}
+
+  int of_triangle(int t) const { return of_vertex[static_cast<size_t>(mesh.triangles(t, 0))]; }
+  Vector3d point(int v) const { return mesh.positions.row(v); }
+};
+
+Tie tie(const Mesh& mesh, std::vector<std::pair<int, double>> factors, double scale, double weight) {
+  Tie result{{}, Eigen::RowVector3d::Zero(), weight};
+  for (const auto& [v, factor] : factors) {
+    if (factor == 0) continue;
+    result.factors.emplace_back(v, scale * factor);
+    result.rest += scale * factor * mesh.positions.row(v);
+  }
+  return result;
+}
+
+std::vector<std::pair<int, double>> point_less_foot(const Mesh& mesh, int v, const Foot& foot) {
+  std::vector<std::pair<int, double>> factors{{v, 1}};
+  for (int k = 0; k < 3; ++k) factors.emplace_back(mesh.triangles(foot.triangle, k), -foot.barycentric[k]);
+  return factors;
+}
+
+/// Contacts by the two components that they join, no more of each two than tell enough.
+class ContactList {
+ public:
+  ContactList(const Parts& parts, double scale) : parts_(parts), scale_(scale) {}
+
+  void add(int component, int other, std::vector<std::pair<int, double>> factors) {
+    of_two_[std::minmax(component, other)].push_back(std::move(factors));
+  }
+
+  std::vector<Tie> ties(Sets& sets) {
+    std::vector<Tie> result;
+    for (const auto& [two, all] : of_two_) {
+      sets.join(two.first, two.second);
+      const size_t stride = (all.size() + kMostOfTwo - 1) / kMostOfTwo;
+      for (size_t i = 0; i < all.size(); i += stride)
+        result.push_back(tie(parts_.mesh, all[i], scale_, kContactStiffness));
+    }
+    return result;
+  }
+
+ private:
+  const Parts& parts_;
+  double scale_;
+  std::map<std::pair<int, int>, std::vector<std::vector<std::pair<int, double>>>> of_two_;
+};
+
+void find_touches(const Parts& parts, const Poll& poll, ContactList& contacts) {
+  for (int v = 0; v < parts.mesh.positions.rows(); ++v) {
+    if (v % 1024 == 0) ask(poll);
+    const int own = parts.of_vertex[static_cast<size_t>(v)];
+    const Foot foot = parts.tree.nearest(parts.point(v), kTouch, [&](int t) { return parts.of_triangle(t) != own; });
+    if (foot.triangle < 0) continue;
+    contacts.add(own, parts.of_triangle(foot.triangle), point_less_foot(parts.mesh, v, foot));
+  }
+}
+
+/// Where a segment from a to b crosses a triangle: how far along, and where in it.
+std::optional<std::pair<double, Vector3d>> crossing(const Vector3d& a, const Vector3d& b,
+                                                    const std::array<Vector3d, 3>& corners) {
+  const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double from = (a - corners[0]).dot(normal), to = (b - corners[0]).dot(normal);
+  if (from * to > 0 || from == to) return std::nullopt;
+  const double along = from / (from - to);
+  const Vector3d at = a + along * (b - a);
+  Vector3d barycentric;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vector3d& corner = corners[(k + 1) % 3];
+    barycentric[static_cast<Eigen::Index>(k)] =
+        (corners[(k + 2) % 3] - corner).cross(at - corner).dot(normal) / normal.squaredNorm();
+  }
+  if (!(barycentric.array() >= 0).all()) return std::nullopt;
+  return std::pair(along, barycentric);
+}
+
+void find_crossings(const Parts& parts, const Edges& edges, const Poll& poll, ContactList& contacts) {
+  const Mesh& mesh = parts.mesh;
+  for (int e = 0; e < edges.vertices.rows(); ++e) {
+    if (e % 1024 == 0) ask(poll);
+    const int v = edges.vertices(e, 0), w = edges.vertices(e, 1), own = parts.of_vertex[static_cast<size_t>(v)];
+    const Vector3d a = parts.point(v), b = parts.point(w);
+    parts.tree.visit({a.cwiseMin(b), a.cwiseMax(b)}, [&](int t) {
+      if (parts.of_triangle(t) == own) return;
+      const Eigen::RowVector3i corners = mesh.triangles.row(t);
+      const auto found = crossing(a, b, {parts.point(corners[0]), parts.point(corners[1]), parts.point(corners[2])});
+      if (!found) return;
+      const auto& [along, barycentric] = *found;
+      std::vector<std::pair<int, double>> factors{{v, 1 - along}, {w, along}};
+      for (int k = 0; k < 3; ++k) factors.emplace_back(corners[k], -barycentric[k]);
+      contacts.add(own, parts.of_triangle(t), std::move(factors));
+    });
+  }
+}
+
+/// Of each vertex the nearest point of another group.
+std::vector<Foot> feet_on_others(const Parts& parts, const std::vector<int>& group_of_part, const Poll& poll) {
+  std::vector<Foot> feet(static_cast<size_t>(parts.mesh.positions.rows()));
+  const auto group = [&](int part) { return group_of_part[static_cast<size_t>(part)]; };
+  for (int v = 0; v < parts.mesh.positions.rows(); ++v) {
+    if (v % 1024 == 0) ask(poll);
+    const int own = group(parts.of_vertex[static_cast<size_t>(v)]);
+    feet[static_cast<size_t>(v)] = parts.tree.nearest(parts.point(v), std::numeric_limits<double>::infinity(),
+                                                      [&](int t) { return group(parts.of_triangle(t)) != own; });
+  }
+  return feet;
+}
+
+/// Links each group's vertices that face another nearly as near as the nearest does.
+void link_once(const Parts& parts, double mean_length, const Poll& poll, Sets& sets, Links& links) {
+  std::vector<int> group_of_part(static_cast<size_t>(parts.count));
+  for (int part = 0; part < parts.count; ++part) group_of_part[static_cast<size_t>(part)] = sets.of(part);
+  const std::vector<Foot> feet = feet_on_others(parts, group_of_part, poll);
+  const auto group_of = [&](size_t v) { return group_of_part[static_cast<size_t>(parts.of_vertex[v])]; };
+  std::map<int, double> nearest;
+  for (size_t v = 0; v < feet.size(); ++v) {
+    double& least = nearest.try_emplace(group_of(v), std::numeric_limits<double>::infinity()).first->second;
+    least = std::min(least, feet[v].distance);
+  }
+  std::map<int, std::vector<int>> facing;
+  for (size_t v = 0; v < feet.size(); ++v) {
+    if (feet[v].distance <= 1.5 * nearest[group_of(v)] + mean_length)
+      facing[group_of(v)].push_back(static_cast<int>(v));
+  }
+  for (const auto& [group, vertices] : facing) {
+    const size_t stride = (vertices.size() + kMostOfTwo - 1) / kMostOfTwo;
+    for (size_t i = 0; i < vertices.size(); i += stride) {
+      const Foot& foot = feet[static_cast<size_t>(vertices[i])];
+      const double gap = std::max(foot.distance, 0.1 * mean_length);
+      links.ties.push_back(tie(parts.mesh, point_less_foot(parts.mesh, vertices[i], foot), 1 / gap, kLinkWeight));
+    }
+    for (const int v : vertices) sets.join(group, parts.of_triangle(feet[static_cast<size_t>(v)].triangle));
+  }
+}
+
+Sets groups_of(const Parts& parts, const Links& links) {
+  Sets sets(parts.count);
+  for (const Tie& contact : links.ties) {
+    for (const auto& [v, factor] : contact.factors) {
+      sets.join(parts.of_vertex[static_cast<size_t>(contact.factors[0].first)],
+                parts.of_vertex[static_cast<size_t>(v)]);
+    }
+  }
+  return sets;
+}
+
+}  // namespace
+
+Links contacts(const Mesh& unit_mesh, const Edges& edges, const Poll& poll) {
+  const Parts parts(unit_mesh);
+  ContactList list(parts, 1 / mean_edge_length(unit_mesh.positions, unit_mesh.triangles));
+  find_touches(parts, poll, list);
+  find_crossings(parts, edges, poll, list);
+  Sets sets(parts.count);
+  Links links;
+  links.ties = list.ties(sets);
+  links.contacts = static_cast<int>(links.ties.size());
+  links.groups = sets.count();
+  return links;
+}
+
+void add_links(const Mesh& unit_mesh, const Poll& poll, Links& links) {
+  const Parts parts(unit_mesh);
+  const double mean_length = mean_edge_length(unit_mesh.positions, unit_mesh.triangles);
+  Sets sets = groups_of(parts, links);
+  while (sets.count() > 1) link_once(parts, mean_length, poll, sets, links);
+}
+
+}  // namespace swage
