@@ -1,6 +1,8 @@
 #include "intersections.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 
 #include "box_tree.h"
@@ -12,8 +14,12 @@ namespace {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-// Leaves between two questions whether to go on. The same for any number of threads.
-constexpr int kBatch = 128;
+using Clock = std::chrono::steady_clock;
+
+// Between two questions whether to go on.
+constexpr std::chrono::milliseconds kSlice{40};
+// Up to as many one thread is done before others are awake.
+constexpr int kFewLeaves = 100;
 
 /// In units of a power of two, so that no coordinate is rounded and products neither overflow nor underflow.
 Positions in_middle_of_range(const Positions& positions) {
@@ -74,33 +80,58 @@ class Surface {
   BoxTree tree_;
 };
 
-Pairs crossings_of_batch(const Surface& surface, int first, int last, std::size_t most) {
-  std::vector<Pairs> of_leaves(static_cast<size_t>(last - first));
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int leaf = first; leaf < last; ++leaf) {
-    of_leaves[static_cast<size_t>(leaf - first)] = surface.crossings(leaf, most);
+/// Searches leaf after leaf, by all threads, in slices of time.
+class Search {
+ public:
+  Search(const Surface& surface, std::size_t most)
+      : surface_(surface), most_(most), of_leaves_(static_cast<size_t>(surface.leaf_count())) {}
+
+  double part() const { return std::min(1.0, 1.0 * next_ / surface_.leaf_count()); }
+  bool has_enough() const { return found_ > most_; }
+  bool is_done() const { return next_ >= surface_.leaf_count() || has_enough(); }
+
+  /// A leaf once taken is searched to its end: those searched are always the first ones, whatever the threads do.
+  void slice() {
+    const auto end = Clock::now() + kSlice;
+#pragma omp parallel if (surface_.leaf_count() > kFewLeaves)
+    while (!is_done() && Clock::now() < end) {
+      const int leaf = next_++;
+      if (leaf >= surface_.leaf_count()) break;
+      Pairs& pairs = of_leaves_[static_cast<size_t>(leaf)];
+      pairs = surface_.crossings(leaf, most_);
+      found_ += pairs.size();
+    }
   }
-  Pairs pairs;
-  for (const Pairs& more : of_leaves) pairs.insert(pairs.end(), more.begin(), more.end());
-  return pairs;
-}
+
+  /// The first `most` by leaves, ascending.
+  Pairs pairs() const {
+    Pairs all;
+    for (const Pairs& more : of_leaves_) all.insert(all.end(), more.begin(), more.end());
+    all.resize(std::min(all.size(), most_));
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  const Surface& surface_;
+  std::size_t most_;
+  std::vector<Pairs> of_leaves_;
+  std::atomic<int> next_ = 0;
+  std::atomic<std::size_t> found_ = 0;
+};
 
 }  // namespace
 
 Crossings self_intersections(const Positions& positions, const Triangles& triangles, std::size_t most_pairs,
                              const std::function<bool(double)>& goes_on) {
-  Crossings crossings;
-  Pairs& pairs = crossings.pairs;
   const Surface surface(positions, triangles);
-  for (int leaf = 0; leaf < surface.leaf_count() && crossings.complete; leaf += kBatch) {
-    const int end = std::min(leaf + kBatch, surface.leaf_count());
-    const Pairs more = crossings_of_batch(surface, leaf, end, most_pairs - pairs.size());
-    pairs.insert(pairs.end(), more.begin(), more.end());
-    crossings.complete = pairs.size() <= most_pairs && (!goes_on || goes_on(1.0 * end / surface.leaf_count()));
+  Search search(surface, most_pairs);
+  bool going = true;
+  while (going && !search.is_done()) {
+    search.slice();
+    going = !goes_on || goes_on(search.part());
   }
-  pairs.resize(std::min(pairs.size(), most_pairs));
-  std::sort(pairs.begin(), pairs.end());
-  return crossings;
+  return {search.pairs(), search.is_done() && !search.has_enough()};
 }
 
 }  // namespace swage
