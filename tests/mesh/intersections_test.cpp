@@ -4,10 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "exact_overlap.h"
-#include "mesh_index.h"
-#include "places.h"
 #include "shapes.h"
-#include "swage/mesh_io.h"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -179,29 +176,6 @@ TEST(SelfIntersections, AreTheSameForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
 }
 #endif
-
-/// Its faces as the listing had them triangulated: fans, whatever their shape.
-Mesh in_fans(const MeshFile& file) {
-  std::vector<std::array<int, 3>> fans;
-  for (const std::vector<int>& polygon : file.polygons) {
-    for (size_t i = 2; i < polygon.size(); ++i) fans.push_back({polygon[0], polygon[i - 1], polygon[i]});
-  }
-  Mesh mesh{file.mesh.positions, Triangles(fans.size(), 3)};
-  for (size_t t = 0; t < fans.size(); ++t) {
-    mesh.triangles.row(static_cast<Eigen::Index>(t)) << fans[t][0], fans[t][1], fans[t][2];
-  }
-  return mesh;
-}
-
-TEST(SelfIntersections, OfRealMeshesAreAsManyAsOthersFound) {
-  if (!test::has_shared()) GTEST_SKIP() << "no real meshes beside this checkout";
-  int compared = 0;
-  for (const test::ListedMesh& listed : test::listed_meshes()) {
-    EXPECT_EQ(crossings(in_fans(read_mesh(listed.path))).size(), listed.number("self_int_pairs")) << listed.name;
-    ++compared;
-  }
-  EXPECT_GT(compared, 190);
-}
 
 }  // namespace
 }  // namespace swage

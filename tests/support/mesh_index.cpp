@@ -1,8 +1,10 @@
 #include "mesh_index.h"
 
+#include <array>
 #include <fstream>
 
 #include "places.h"
+#include "swage/mesh_io.h"
 
 namespace swage::test {
 namespace {
@@ -22,6 +24,19 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 }  // namespace
+
+Mesh ListedMesh::in_fans() const {
+  const MeshFile file = read_mesh(path);
+  std::vector<std::array<int, 3>> fans;
+  for (const std::vector<int>& polygon : file.polygons) {
+    for (size_t i = 2; i < polygon.size(); ++i) fans.push_back({polygon[0], polygon[i - 1], polygon[i]});
+  }
+  Mesh mesh{file.mesh.positions, Triangles(fans.size(), 3)};
+  for (size_t t = 0; t < fans.size(); ++t) {
+    mesh.triangles.row(static_cast<Eigen::Index>(t)) << fans[t][0], fans[t][1], fans[t][2];
+  }
+  return mesh;
+}
 
 std::vector<ListedMesh> listed_meshes() {
   std::vector<ListedMesh> meshes;

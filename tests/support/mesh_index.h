@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "swage/mesh.h"
+
 namespace swage::test {
 
 struct ListedMesh {
@@ -15,6 +17,8 @@ struct ListedMesh {
 
   int number(const std::string& column) const { return std::stoi(columns.at(column)); }
   double real(const std::string& column) const { return std::stod(columns.at(column)); }
+  /// With faces in fans, as they were triangulated where others looked.
+  Mesh in_fans() const;
   char letter() const { return columns.at("class").at(0); }  ///< Its class.
 };
 
