@@ -120,8 +120,9 @@ std::string words_of(std::string name) {
 }
 
 std::string first_words(const Diagnosis& found) {
+  const Json places = firsts(found);
   std::string text;
-  for (const auto& [name, place] : firsts(found).items()) {
+  for (const auto& [name, place] : places.items()) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", words_of(name),
                         place.is_array() ? fmt::format("{}-{}", place[0].get<int>(), place[1].get<int>())
                                          : std::to_string(place.get<int>()));
@@ -139,7 +140,8 @@ void print(const std::string& path, const Diagnosis& found, const Verdict& verdi
   const auto row = [&text](const std::string& name, const std::string& words) {
     text += fmt::format("  {:<22} {}\n", name, words);
   };
-  for (const auto& [name, count] : counts(found).items()) row(words_of(name), std::to_string(count.get<int>()));
+  const Json numbers = counts(found);
+  for (const auto& [name, count] : numbers.items()) row(words_of(name), std::to_string(count.get<int>()));
   if (!found.self_intersections_complete) row("", "or more self intersections: the search ended there");
   if (const std::string words = first_words(found); !words.empty()) row("first of each", words);
   row("mean edge", fmt::format("{:.6g}, shortest {:.3g} and longest {:.3g} times that", found.mean_edge,
