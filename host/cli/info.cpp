@@ -143,7 +143,7 @@ void print(const std::string& path, const Diagnosis& found, const Verdict& verdi
   const Json numbers = counts(found);
   for (const auto& [name, count] : numbers.items()) row(words_of(name), std::to_string(count.get<int>()));
   if (!found.self_intersections_complete) row("", "or more self intersections: the search ended there");
-  if (const std::string words = first_words(found); !words.empty()) row("first of each", words);
+  if (const std::string words = first_words(found); !words.empty()) row("first, counted from 0", words);
   row("mean edge", fmt::format("{:.6g}, shortest {:.3g} and longest {:.3g} times that", found.mean_edge,
                                found.shortest_edge / found.mean_edge, found.longest_edge / found.mean_edge));
   row("smallest angle",
