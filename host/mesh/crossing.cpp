@@ -26,11 +26,8 @@ int open_axis(const Corners& t) {
 
 /// On which side of the triangle's plane the points lie.
 Signs sides(const Corners& plane, const Corners& of) {
-  const auto& [a, b, c] = plane.points;
-  Signs signs;
-  std::transform(of.points.begin(), of.points.end(), signs.begin(),
-                 [&](const Point& point) { return orient3d(a, b, c, point); });
-  return signs;
+  const auto side = [&t = plane.points](const Point& point) { return orient3d(t[0], t[1], t[2], point); };
+  return {side(of.points[0]), side(of.points[1]), side(of.points[2])};
 }
 
 /// The three signs have both 1 and -1 among them.
@@ -43,7 +40,8 @@ bool all_are(int sign, const Signs& signs) {
   return std::all_of(signs.begin(), signs.end(), [&](int s) { return s == sign; });
 }
 
-/// Of a segment in the triangle's plane: apart where the line along a side of either has both on different sides.
+/// Of a segment in the triangle's plane. They are apart where the line along a side of the triangle has all of the
+/// segment strictly beyond it, or the line along the segment all of the triangle strictly on one side.
 bool meets_in_plane(const Point& p, const Point& q, const Corners& t) {
   const int axis = open_axis(t);
   const auto seen = [&](const Point& a, const Point& b, const Point& c) { return turn(axis, a, b, c); };

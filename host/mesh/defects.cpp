@@ -36,6 +36,7 @@ int count_different(std::vector<int> values) {
 int count_components(const Triangles& triangles, int vertex_count) {
   const std::vector<int> component = components(triangles, vertex_count);
   std::vector<int> used;
+  used.reserve(static_cast<size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) used.push_back(component[static_cast<size_t>(triangles(t, 0))]);
   return count_different(std::move(used));
 }
@@ -73,6 +74,7 @@ void count_edges(Diagnosis& diagnosis, const Triangles& triangles, const Edges& 
   }
   const std::vector<int> loop = groups_of(boundary, diagnosis.vertices);
   std::vector<int> loops;
+  loops.reserve(boundary.size());
   for (const auto& [first, second] : boundary) loops.push_back(loop[static_cast<size_t>(first)]);
   diagnosis.boundary_loops = count_different(std::move(loops));
 }
@@ -107,6 +109,7 @@ void count_vertices_with_several_fans(Diagnosis& diagnosis, const Triangles& tri
 
 FoundElements duplicate_triangles(const Triangles& triangles) {
   std::vector<std::pair<std::array<int, 3>, int>> rows;  // Sorted vertices, and the triangle.
+  rows.reserve(static_cast<size_t>(triangles.rows()));
   for (int t = 0; t < triangles.rows(); ++t) {
     rows.push_back({{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, t});
     std::sort(rows.back().first.begin(), rows.back().first.end());
