@@ -4,9 +4,11 @@
 #include <memory>
 #include <numbers>
 
-#include "facts.h"
+#include "interrupt.h"
 #include "options.h"
+#include "progress_bar.h"
 #include "report_json.h"
+#include "swage/diagnose.h"
 #include "swage/error.h"
 #include "swage/mesh_io.h"
 #include "swage/reshape.h"
@@ -19,18 +21,18 @@ struct Verdict {
   std::string words;
 };
 
-std::string needs(const Facts& facts) {
+std::string needs(const Diagnosis& found) {
   std::string words = "reshape solves it directly";
-  const int pieces = facts.components + facts.isolated_vertices;
+  const int pieces = found.components + found.isolated_vertices.count;
   if (pieces > 1) words += fmt::format(", where each of its {} connected parts has a handle", pieces);
   return words;
 }
 
 /// Asks reshape itself: making one checks the mesh and does no more.
-Verdict ask_reshape(const Mesh& mesh, const Facts& facts) {
+Verdict ask_reshape(const Mesh& mesh, const Diagnosis& found) {
   try {
     const Reshape checked(mesh.positions, mesh.triangles);
-    return {true, needs(facts)};
+    return {true, needs(found)};
   } catch (const InvalidInput& e) {
     return {false, std::string("reshape refuses it: ") + e.what()};
   }
@@ -45,66 +47,125 @@ int faces_with_repeats(const MeshFile& file) {
   return count;
 }
 
-void add_counts(Json& json, const Facts& facts) {
-  json["vertices"] = facts.vertices;
-  json["triangles"] = facts.triangles;
-  json["components"] = facts.components;
-  json["boundary_edges"] = facts.boundary_edges;
-  json["boundary_loops"] = facts.boundary_loops;
-  json["non_manifold_edges"] = facts.non_manifold_edges;
-  json["non_manifold_vertices"] = facts.non_manifold_vertices;
-  json["inconsistent_edges"] = facts.inconsistent_edges;
-  json["degenerate_triangles"] = facts.degenerate_triangles;
-  json["duplicate_triangles"] = facts.duplicate_triangles;
-  json["duplicate_vertices"] = facts.duplicate_vertices;
-  json["isolated_vertices"] = facts.isolated_vertices;
+Json counts(const Diagnosis& found) {
+  return {{"vertices", found.vertices},
+          {"triangles", found.triangles},
+          {"components", found.components},
+          {"welded_components", found.welded_components},
+          {"boundary_edges", found.boundary_edges.count},
+          {"boundary_loops", found.boundary_loops},
+          {"non_manifold_edges", found.non_manifold_edges.count},
+          {"non_manifold_vertices", found.non_manifold_vertices.count},
+          {"inconsistent_edges", found.inconsistent_edges.count},
+          {"degenerate_triangles", found.degenerate_triangles.count},
+          {"duplicate_triangles", found.duplicate_triangles.count},
+          {"duplicate_vertices", found.duplicate_vertices.count},
+          {"isolated_vertices", found.isolated_vertices.count},
+          {"self_intersections", found.self_intersections.count}};
 }
+
+/// Where the first of each is: a vertex, a triangle, an edge by its vertices or a pair of triangles.
+Json firsts(const Diagnosis& found) {
+  Json places = Json::object();
+  const auto element = [&](const char* name, const FoundElements& one) {
+    if (one.first >= 0) places[name] = one.first;
+  };
+  const auto pair = [&](const char* name, const FoundPairs& one) {
+    if (one.count > 0) places[name] = one.first;
+  };
+  pair("boundary_edges", found.boundary_edges);
+  pair("non_manifold_edges", found.non_manifold_edges);
+  element("non_manifold_vertices", found.non_manifold_vertices);
+  pair("inconsistent_edges", found.inconsistent_edges);
+  element("degenerate_triangles", found.degenerate_triangles);
+  element("duplicate_triangles", found.duplicate_triangles);
+  element("duplicate_vertices", found.duplicate_vertices);
+  element("isolated_vertices", found.isolated_vertices);
+  pair("self_intersections", found.self_intersections);
+  return places;
+}
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Json corner(const Eigen::Vector3d& point) { return {point[0], point[1], point[2]}; }
 
-void add_measures(Json& json, const Facts& facts, std::vector<std::string>& warnings) {
+void add_measures(Json& json, const Diagnosis& found, std::vector<std::string>& warnings) {
   auto number = [&](double value, const char* name) { return finite(value, name, warnings); };
-  json["edge_length"] = {{"mean", number(facts.mean_edge, "mean edge length")},
-                         {"min_to_mean", number(facts.shortest_edge / facts.mean_edge, "shortest edge to mean")},
-                         {"max_to_mean", number(facts.longest_edge / facts.mean_edge, "longest edge to mean")}};
-  json["smallest_angle_deg"] = number(facts.smallest_angle * 180 / std::numbers::pi, "smallest angle");
-  json["box"] = {corner(facts.low), corner(facts.high)};
-  json["diagonal"] = (facts.high - facts.low).norm();
-  json["volume"] = facts.volume ? number(*facts.volume, "volume") : Json(nullptr);
+  json["edge_length"] = {{"mean", number(found.mean_edge, "mean edge length")},
+                         {"min_to_mean", number(found.shortest_edge / found.mean_edge, "shortest edge to mean")},
+                         {"max_to_mean", number(found.longest_edge / found.mean_edge, "longest edge to mean")}};
+  json["smallest_angle_deg"] = number(degrees(found.smallest_angle), "smallest angle");
+  json["low_angle_deg"] = number(degrees(found.low_angle), "low angle");
+  json["needle_fraction"] = found.needle_fraction;
+  json["box"] = {corner(found.low), corner(found.high)};
+  json["diagonal"] = (found.high - found.low).norm();
+  json["volume"] = found.volume ? number(*found.volume, "volume") : Json(nullptr);
 }
 
-Json info_json(const std::string& path, const MeshFile& file, const Facts& facts, const Verdict& verdict) {
+Json info_json(const std::string& path, const MeshFile& file, const Diagnosis& found, const Verdict& verdict) {
   std::vector<std::string> warnings = file.warnings;
   Json json = {{"command", "info"}, {"version", SWAGE_VERSION}, {"input", path}};
-  add_counts(json, facts);
-  add_measures(json, facts, warnings);
+  json.update(counts(found));
+  json["self_intersections_complete"] = found.self_intersections_complete;
+  json["first"] = firsts(found);
+  add_measures(json, found, warnings);
   json["reshape"] = {{"solves", verdict.solves}, {"words", verdict.words}};
   json["warnings"] = warnings;
   return json;
 }
 
-std::string volume_words(const Facts& facts) {
-  if (!facts.volume) return "none: not closed and consistently oriented";
-  return fmt::format("{:.6g}{}", *facts.volume, *facts.volume < 0 ? " (inside out: normals point inward)" : "");
+std::string words_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
-void print(const std::string& path, const Facts& facts, const Verdict& verdict) {
-  Json counts;
-  add_counts(counts, facts);
-  std::string text = path + "\n";
-  for (const auto& [name, count] : counts.items()) {
-    std::string words = name;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    text += fmt::format("  {:<22} {}\n", words, count.get<int>());
+std::string first_words(const Diagnosis& found) {
+  const Json places = firsts(found);
+  std::string text;
+  for (const auto& [name, place] : places.items()) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", words_of(name),
+                        place.is_array() ? fmt::format("{}-{}", place[0].get<int>(), place[1].get<int>())
+                                         : std::to_string(place.get<int>()));
   }
-  text += fmt::format("  {:<22} {:.6g}, shortest {:.3g} and longest {:.3g} times that\n", "mean edge", facts.mean_edge,
-                      facts.shortest_edge / facts.mean_edge, facts.longest_edge / facts.mean_edge);
-  text += fmt::format("  {:<22} {:.3g} degrees\n", "smallest angle", facts.smallest_angle * 180 / std::numbers::pi);
-  text += fmt::format("  {:<22} ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}\n", "box",
-                      facts.low[0], facts.low[1], facts.low[2], facts.high[0], facts.high[1], facts.high[2],
-                      (facts.high - facts.low).norm());
-  text += fmt::format("  {:<22} {}\n{}\n", "volume", volume_words(facts), verdict.words);
-  write_stdout(text);
+  return text;
+}
+
+std::string volume_words(const Diagnosis& found) {
+  if (!found.volume) return "none: not closed and consistently oriented";
+  return fmt::format("{:.6g}{}", *found.volume, *found.volume < 0 ? " (inside out: normals point inward)" : "");
+}
+
+void print(const std::string& path, const Diagnosis& found, const Verdict& verdict) {
+  std::string text = path + "\n";
+  const auto row = [&text](const std::string& name, const std::string& words) {
+    text += fmt::format("  {:<22} {}\n", name, words);
+  };
+  const Json numbers = counts(found);
+  for (const auto& [name, count] : numbers.items()) row(words_of(name), std::to_string(count.get<int>()));
+  if (!found.self_intersections_complete) row("", "or more self intersections: the search ended there");
+  if (const std::string words = first_words(found); !words.empty()) row("first, counted from 0", words);
+  row("mean edge", fmt::format("{:.6g}, shortest {:.3g} and longest {:.3g} times that", found.mean_edge,
+                               found.shortest_edge / found.mean_edge, found.longest_edge / found.mean_edge));
+  row("smallest angle",
+      fmt::format("{:.3g} degrees; {:.3g} at the 5th percentile; below 10 in {:.3g} % of triangles",
+                  degrees(found.smallest_angle), degrees(found.low_angle), 100 * found.needle_fraction));
+  row("box",
+      fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), diagonal {:.6g}", found.low[0], found.low[1],
+                  found.low[2], found.high[0], found.high[1], found.high[2], (found.high - found.low).norm()));
+  row("volume", volume_words(found));
+  write_stdout(text + verdict.words + "\n");
+}
+
+Diagnosis diagnose_file(const MeshFile& file, const CommonOptions& common) {
+  ProgressBar bar(!common.quiet && !common.verbose);
+  Diagnosis found = diagnose(file.mesh.positions, file.mesh.triangles, [&](const Progress& now) {
+    bar.show(now);
+    return !interrupted();
+  });
+  stop_if_interrupted();
+  // Reading drops the triangles of such faces; they are in the file all the same.
+  found.degenerate_triangles.count += faces_with_repeats(file);
+  return found;
 }
 
 void run_info(const std::string& path, const std::string& json_path, const CommonOptions& common) {
@@ -112,12 +173,10 @@ void run_info(const std::string& path, const std::string& json_path, const Commo
   apply(common);
   const MeshFile file = read_mesh(path);
   for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
-  Facts facts = facts_of(file.mesh);
-  // Reading drops the triangles of such faces; they are in the file all the same.
-  facts.degenerate_triangles += faces_with_repeats(file);
-  const Verdict verdict = ask_reshape(file.mesh, facts);
-  write_json(json_path, info_json(path, file, facts, verdict));
-  if (json_path != kStdout) print(path, facts, verdict);
+  const Diagnosis found = diagnose_file(file, common);
+  const Verdict verdict = ask_reshape(file.mesh, found);
+  write_json(json_path, info_json(path, file, found, verdict));
+  if (json_path != kStdout) print(path, found, verdict);
 }
 
 }  // namespace

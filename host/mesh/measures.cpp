@@ -9,6 +9,11 @@
 #include "swage/error.h"
 
 namespace swage {
+namespace {
+
+constexpr double kNoHeight = 1e-10;
+
+}  // namespace
 
 Positions edge_vectors(const Positions& positions, const Edges& edges) {
   Positions vectors(edges.vertices.rows(), 3);
@@ -32,6 +37,13 @@ Positions unit_normals(const Positions& positions, const Triangles& triangles) {
   Positions normals = area_vectors(positions, triangles);
   normals.rowwise().normalize();
   return normals;
+}
+
+bool has_area(const Positions& positions, const Eigen::RowVector3i& triangle) {
+  const Eigen::RowVector3d a = positions.row(triangle[0]);
+  const Eigen::RowVector3d ab = positions.row(triangle[1]) - a, ac = positions.row(triangle[2]) - a;
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  return ab.cross(ac).norm() > kNoHeight * longest;
 }
 
 double mean_edge_length(const Positions& positions, const Triangles& triangles) {

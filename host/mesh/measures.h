@@ -15,6 +15,9 @@ Positions area_vectors(const Positions& positions, const Triangles& triangles);
 /// #T × 3, unit; zero where a triangle has no area.
 Positions unit_normals(const Positions& positions, const Triangles& triangles);
 
+/// Whether the height over the longest side is above 1e-10: below that, rounding alone may have made the normal.
+bool has_area(const Positions& positions, const Eigen::RowVector3i& triangle);
+
 /// Mean over all triangles of their three edge lengths: an interior edge counts twice. The paper's L_avg.
 double mean_edge_length(const Positions& positions, const Triangles& triangles);
 

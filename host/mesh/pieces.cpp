@@ -9,8 +9,6 @@
 namespace swage {
 namespace {
 
-// Twice the area over the longest side squared: below this, rounding alone may have made the normal.
-constexpr double kNoArea = 1e-10;
 // A dihedral angle that equals the crease angle up to rounding (radians) is not below it.
 constexpr double kAngleRounding = 1e-9;
 
@@ -41,12 +39,7 @@ class Corners {
 Positions certain_normals(const Positions& positions, const Triangles& triangles) {
   Positions normals = area_vectors(positions, triangles);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    double longest = 0;
-    for (int k = 0; k < 3; ++k) {
-      longest =
-          std::max(longest, (positions.row(triangles(t, (k + 1) % 3)) - positions.row(triangles(t, k))).squaredNorm());
-    }
-    if (!(normals.row(t).norm() > kNoArea * longest)) normals.row(t).setZero();
+    if (!has_area(positions, triangles.row(t))) normals.row(t).setZero();
   }
   return normals;
 }

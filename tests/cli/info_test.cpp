@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "mesh_index.h"
 #include "program.h"
 #include "shapes.h"
 #include "swage/mesh_io.h"
@@ -36,11 +36,12 @@ json info_of_obj(const std::string& text) {
 
 /// All that can be wrong is 0 but for these.
 void expect_wrong_only(const json& facts, const std::map<std::string, int>& wrong) {
-  for (const char* name :
-       {"boundary_edges", "boundary_loops", "non_manifold_edges", "non_manifold_vertices", "inconsistent_edges",
-        "degenerate_triangles", "duplicate_triangles", "duplicate_vertices", "isolated_vertices"}) {
+  for (const char* name : {"boundary_edges", "boundary_loops", "non_manifold_edges", "non_manifold_vertices",
+                           "inconsistent_edges", "degenerate_triangles", "duplicate_triangles", "duplicate_vertices",
+                           "isolated_vertices", "self_intersections"}) {
     const auto expected = wrong.find(name);
     EXPECT_EQ(facts[name], expected == wrong.end() ? 0 : expected->second) << name;
+    EXPECT_TRUE(expected != wrong.end() || !facts["first"].contains(name)) << name;
   }
 }
 
@@ -90,7 +91,10 @@ TEST(Info, SeveralPartsNeedAHandleEach) {
 
 TEST(Info, AThirdTriangleAtAnEdge) {
   const json facts = info_of_obj(kTetrahedron + "v 3 3 3\nf 1 2 5\n");
-  expect_wrong_only(facts, {{"boundary_edges", 2}, {"boundary_loops", 1}, {"non_manifold_edges", 1}});
+  expect_wrong_only(
+      facts, {{"boundary_edges", 2}, {"boundary_loops", 1}, {"non_manifold_edges", 1}, {"self_intersections", 1}});
+  EXPECT_EQ(facts["first"]["non_manifold_edges"], json({0, 1}));
+  EXPECT_EQ(facts["first"]["self_intersections"], json({2, 4})) << "it leaves through the face across";
   EXPECT_EQ(facts["reshape"]["solves"], false);
 }
 
@@ -117,7 +121,9 @@ TEST(Info, ATriangleWithoutArea) {
   const json facts = info_of_obj(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\n"
       "f 1 3 5\nf 5 3 2\nf 1 5 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
-  expect_wrong_only(facts, {{"degenerate_triangles", 1}});
+  // The halves of the edge touch the triangle that has all of it.
+  expect_wrong_only(facts, {{"degenerate_triangles", 1}, {"self_intersections", 2}});
+  EXPECT_EQ(facts["first"]["degenerate_triangles"], 2);
   EXPECT_EQ(facts["reshape"]["solves"], false);
   EXPECT_THAT(facts["reshape"]["words"].get<std::string>(), HasSubstr("degenerate"));
 }
@@ -130,25 +136,14 @@ TEST(Info, AFaceWithAVertexTwice) {
 
 TEST(Info, ThingsTwice) {
   const json facts = info_of_obj(kTetrahedron + "v 0 0 1\nf 2 3 4\n");
-  expect_wrong_only(
-      facts,
-      {{"duplicate_triangles", 1}, {"duplicate_vertices", 1}, {"isolated_vertices", 1}, {"non_manifold_edges", 3}});
+  expect_wrong_only(facts, {{"duplicate_triangles", 1},
+                            {"duplicate_vertices", 1},
+                            {"isolated_vertices", 1},
+                            {"non_manifold_edges", 3},
+                            {"self_intersections", 1}});
+  EXPECT_EQ(facts["first"]["duplicate_triangles"], 4);
+  EXPECT_EQ(facts["first"]["self_intersections"], json({2, 4}));
   EXPECT_EQ(facts["components"], 1);
-}
-
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> result(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      result.emplace_back();
-    } else {
-      result.back() += c;
-    }
-  }
-  return result;
 }
 
 TEST(Info, RealMeshesAreCountedAsOthersCountedThem) {
@@ -160,24 +155,42 @@ TEST(Info, RealMeshesAreCountedAsOthersCountedThem) {
                                                       {"nm_verts", "non_manifold_vertices"},
                                                       {"misoriented", "inconsistent_edges"},
                                                       {"dup_verts", "duplicate_vertices"},
-                                                      {"isolated_verts", "isolated_vertices"}};
-  std::istringstream index(read_text(shared("data/meshes/index.csv")));
-  std::string line;
-  std::getline(index, line);
-  const std::vector<std::string> names = fields(line);
+                                                      {"isolated_verts", "isolated_vertices"},
+                                                      {"welded_comps", "welded_components"}};
   int compared = 0;
-  while (std::getline(index, line)) {
-    const std::vector<std::string> row = fields(line);
-    std::map<std::string, std::string> mesh;
-    for (size_t i = 0; i < row.size(); ++i) mesh[names[i]] = row[i];
-    if (mesh["split"] != "dev" || mesh["class"] > "C") continue;
-    const json facts = info(shared("data/meshes") / mesh["file"].substr(std::string("dev/").size()));
-    for (const auto& [column, name] : columns) {
-      EXPECT_EQ(facts[name], std::stoi(mesh[column])) << mesh["file"] << ' ' << name;
-    }
+  for (const ListedMesh& listed : listed_meshes()) {
+    if (listed.letter() > 'C') continue;
+    const json facts = info(listed.path);
+    for (const auto& [column, name] : columns)
+      EXPECT_EQ(facts[name], listed.number(column)) << listed.name << ' ' << name;
     ++compared;
   }
   EXPECT_GT(compared, 50);
+}
+
+TEST(Info, PartsThatCrossAndTheirFirstTriangles) {
+  const Mesh crossed = joined(box({1, 1, 1}, 2), transformed(box({1, 1, 1}, 2), 1, {0.3, 0.2, 0.1}));
+  const json facts = info(crossed);
+  EXPECT_GT(facts["self_intersections"], 20);
+  EXPECT_EQ(facts["self_intersections_complete"], true);
+  EXPECT_LT(facts["first"]["self_intersections"][0], 48);
+  EXPECT_GE(facts["first"]["self_intersections"][1], 48);
+  EXPECT_EQ(info(box({1, 1, 1}, 2))["first"], json::object());
+}
+
+TEST(Info, PartsThatTouchAreOneOnceWelded) {
+  const json facts = info(joined(box({1, 1, 1}, 2), transformed(box({1, 1, 1}, 2), 1, {1, 1, 1})));
+  expect_wrong_only(facts, {{"duplicate_vertices", 1}});
+  EXPECT_EQ(facts["components"], 2);
+  EXPECT_EQ(facts["welded_components"], 1);
+}
+
+TEST(Info, Needles) {
+  // One of 2 triangles is a needle.
+  const json facts = info_of_obj("v 0 0 0\nv 1 0 0\nv 0.5 0.8 0\nv 0.5 -0.04 0\nf 1 2 3\nf 2 1 4\n");
+  EXPECT_EQ(facts["needle_fraction"], 0.5);
+  EXPECT_NEAR(facts["smallest_angle_deg"].get<double>(), 4.574, 1e-3);
+  EXPECT_GT(facts["low_angle_deg"], facts["smallest_angle_deg"]);
 }
 
 TEST(Info, TheTableSaysTheSameInWords) {
@@ -187,6 +200,8 @@ TEST(Info, TheTableSaysTheSameInWords) {
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.out, testing::ContainsRegex("boundary edges +20\n"));
   EXPECT_THAT(outcome.out, testing::ContainsRegex("boundary loops +1\n"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("first, counted from 0 +boundary edges 0-1\n"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("self intersections +0\n"));
   EXPECT_THAT(outcome.out, HasSubstr("reshape refuses it"));
   EXPECT_EQ(json::parse(read_text(folder / "facts.json"))["boundary_edges"], 20);
 }

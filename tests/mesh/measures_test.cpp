@@ -34,6 +34,20 @@ TEST(Measures, MeanEdgeLengthCountsInteriorEdgesTwice) {
   EXPECT_NEAR(mean_edge_length(positions, triangles), (4 + 2 * std::sqrt(2.0)) / 6, 1e-15);
 }
 
+TEST(Measures, ATriangleHasAreaDownToAHeightOf1e10OfItsLongestSide) {
+  const auto of_height = [](double height, double size) {
+    Positions positions(3, 3);
+    positions << 0, 0, 0, 2, 0, 0, 0.3, height, 0;
+    return has_area(size * positions, {0, 1, 2});
+  };
+  for (const double size : {1e-9, 1.0, 1e9}) {
+    EXPECT_TRUE(of_height(3e-10, size));
+    EXPECT_FALSE(of_height(1e-10, size));
+    EXPECT_FALSE(of_height(0, size));
+  }
+  EXPECT_FALSE(has_area(Positions::Random(2, 3), {0, 1, 1}));
+}
+
 TEST(Measures, DihedralAngle) {
   const Eigen::Vector3d up(0, 0, 1);
   EXPECT_EQ(dihedral_angle(up, up), std::numbers::pi);
