@@ -43,7 +43,7 @@ Given::Given(Mesh mesh, Surface& surface, bool in_order)
 
 void Given::list_loose(const Mesh& surface) {
   if (std::find(vertex_of_.begin(), vertex_of_.end(), -1) == vertex_of_.end()) return;
-  const BoxTree tree(surface.positions, surface.triangles);
+  const TriangleTree tree(surface.positions, surface.triangles);
   for (int v = 0; v < static_cast<int>(vertex_of_.size()); ++v) {
     if (!is_loose(v)) continue;
     const Eigen::RowVector3d point = mesh_.positions.row(v);

@@ -51,7 +51,7 @@ struct Parts {
   const Mesh& mesh;
   std::vector<int> of_vertex;
   int count;
-  BoxTree tree;
+  TriangleTree tree;
 
   explicit Parts(const Mesh& unit_mesh)
       : mesh(unit_mesh),
@@ -139,7 +139,7 @@ void find_crossings(const Parts& parts, const Edges& edges, const Poll& poll, Co
     if (e % 1024 == 0) ask(poll);
     const int v = edges.vertices(e, 0), w = edges.vertices(e, 1), own = parts.of_vertex[static_cast<size_t>(v)];
     const Vector3d a = parts.point(v), b = parts.point(w);
-    parts.tree.visit({a.cwiseMin(b), a.cwiseMax(b)}, [&](int t) {
+    parts.tree.near({a.cwiseMin(b), a.cwiseMax(b)}, [&](int t) {
       if (parts.of_triangle(t) == own) return;
       const Eigen::RowVector3i corners = mesh.triangles.row(t);
       const auto found = crossing(a, b, {parts.point(corners[0]), parts.point(corners[1]), parts.point(corners[2])});

@@ -17,9 +17,9 @@ Eigen::Vector3d point_of(const Mesh& mesh, const Foot& foot) {
   return point;
 }
 
-TEST(BoxTree, FindsTheNearestPointOfASphere) {
+TEST(TriangleTree, FindsTheNearestPointOfASphere) {
   const Mesh mesh = test::sphere(2, 4);
-  const BoxTree tree(mesh.positions, mesh.triangles);
+  const TriangleTree tree(mesh.positions, mesh.triangles);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d direction = Eigen::Vector3d::Random().normalized();
     for (const double radius : {0.5, 1.9, 3.0, 50.0}) {
@@ -32,10 +32,10 @@ TEST(BoxTree, FindsTheNearestPointOfASphere) {
   }
 }
 
-TEST(BoxTree, IsAsGoodAsLookingAtAllTriangles) {
+TEST(TriangleTree, IsAsGoodAsLookingAtAllTriangles) {
   Mesh mesh{Positions::Random(90, 3), Triangles(30, 3)};
   for (int t = 0; t < 30; ++t) mesh.triangles.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
-  const BoxTree tree(mesh.positions, mesh.triangles);
+  const TriangleTree tree(mesh.positions, mesh.triangles);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3d point = 2 * Eigen::Vector3d::Random();
     double least = 1e9;
@@ -76,11 +76,11 @@ TEST(NearestOnTriangle, WithoutAreaIsThatOfItsSides) {
   EXPECT_DOUBLE_EQ(nearest_on_triangle({1, 1, 0}, a, a, a).distance, std::sqrt(2.0));
 }
 
-TEST(BoxTree, VisitsTheTrianglesWhoseBoxesMeet) {
+TEST(TriangleTree, VisitsTheTrianglesWhoseBoxesMeet) {
   const Mesh mesh = test::sheet(4);
-  const BoxTree tree(mesh.positions, mesh.triangles);
+  const TriangleTree tree(mesh.positions, mesh.triangles);
   std::vector<int> met;
-  tree.visit({{0.1, 0.1, -1}, {0.2, 0.2, 1}}, [&](int t) { met.push_back(t); });
+  tree.near({Eigen::Vector3d(0.1, 0.1, -1), Eigen::Vector3d(0.2, 0.2, 1)}, [&](int t) { met.push_back(t); });
   std::sort(met.begin(), met.end());
   EXPECT_EQ(met, (std::vector<int>{0, 1}));
 }
