@@ -25,6 +25,14 @@ constexpr const char* kOpenCl = "ON";
 #else
 constexpr const char* kOpenCl = "OFF";
 #endif
+#ifdef SWAGE_TETGEN
+constexpr const char* kTetgen = "ON";
+constexpr const char* kHelpers =
+    "\nrun as programs of their own, apart from this licence: swage-tetgen (TetGen, AGPL-3.0-or-later)";
+#else
+constexpr const char* kTetgen = "OFF";
+constexpr const char* kHelpers = "";
+#endif
 #ifdef SWAGE_CHOLMOD
 constexpr const char* kCholmod = "ON";
 // Apache-2.0 goes with version 3 of the GPL only.
@@ -38,7 +46,7 @@ constexpr const char* kLicence = "MIT";
 
 std::string version_text() {
   return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
-         ", CHOLMOD " + kCholmod + "\nlicence: " + kLicence;
+         ", CHOLMOD " + kCholmod + ", TetGen " + kTetgen + "\nlicence: " + kLicence + kHelpers;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "factor.h"
 #include "program.h"
+#include "tetrahedra.h"
 
 namespace swage::test {
 namespace {
@@ -72,6 +73,10 @@ TEST_F(Usage, HelpAndVersionOnEveryLevel) {
     EXPECT_THAT(told.out, testing::ContainsRegex("OpenMP O(N|FF)"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "CHOLMOD ON" : "CHOLMOD OFF"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "licence: GPL-3.0-or-later" : "licence: MIT"));
+    EXPECT_THAT(told.out, HasSubstr(has_tetgen() ? "TetGen ON" : "TetGen OFF"));
+    // A program of its own: its licence is not the program's.
+    EXPECT_EQ(told.out.find("AGPL") != std::string::npos, has_tetgen());
+    EXPECT_THAT(told.out, testing::Not(testing::ContainsRegex("licence: [^\n]*AGPL")));
   }
 }
 

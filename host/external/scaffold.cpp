@@ -1,0 +1,206 @@
+#include "swage/scaffold.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "distinct.h"
+#include "swage/error.h"
+#include "tetrahedra.h"
+
+namespace swage {
+namespace {
+
+constexpr int kBoxCorners = 8;
+
+void check_options(const ScaffoldOptions& options) {
+  if (!(options.enlargement >= 1.01 && options.enlargement <= 1000)) {
+    throw InvalidInput("scaffold: options.enlargement: " + std::to_string(options.enlargement) +
+                       " is not in [1.01, 1000]");
+  }
+  if (!(options.time_limit > 0)) {
+    throw InvalidInput("scaffold: options.time_limit: " + std::to_string(options.time_limit) + " is not above 0");
+  }
+}
+
+/// Corner i is at the high end of axis k where bit k of i is set.
+Positions box_around(const Positions& points, double enlargement) {
+  const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
+  const Eigen::RowVector3d room = Eigen::RowVector3d::Constant((enlargement - 1) / 2 * (high - low).maxCoeff());
+  Positions corners(kBoxCorners, 3);
+  for (int i = 0; i < kBoxCorners; ++i) {
+    for (int k = 0; k < 3; ++k) corners(i, k) = (i >> k & 1) != 0 ? high[k] + room[k] : low[k] - room[k];
+  }
+  return corners;
+}
+
+/// The surface within a box, enlarged by a power of two to a size of about 1, which no coordinate's digits see.
+struct Task {
+  Distinct surface;
+  Complex complex;
+  double scale = 1;
+};
+
+Task make_task(const Positions& positions, const Triangles& triangles, double enlargement) {
+  Task task{distinct(positions, triangles), {}, 1};
+  if (task.surface.triangles.rows() == 0) throw InvalidInput("scaffold: triangles: none has an area");
+  const Positions points = positions(task.surface.vertices, Eigen::all);
+  const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+  task.scale = std::ldexp(1, std::min(-std::ilogb(extent), 1000));
+
+  Complex& complex = task.complex;
+  const auto count = static_cast<int>(points.rows());
+  complex.points.resize(count + kBoxCorners, 3);
+  complex.points << task.scale * points, task.scale * box_around(points, enlargement);
+  complex.triangles = task.surface.triangles;
+  complex.quadrilaterals.resize(6, 4);
+  complex.quadrilaterals << 0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5;
+  complex.quadrilaterals.array() += count;
+  return task;
+}
+
+/// Takes them out of the complex, and returns which of the mesh's they are.
+std::vector<int> leave_out(Task& task, const std::vector<int>& crossing) {
+  std::vector<int> kept, left_out;
+  for (int t = 0; t < task.complex.triangles.rows(); ++t) {
+    if (std::binary_search(crossing.begin(), crossing.end(), t)) {
+      left_out.push_back(task.surface.originals[static_cast<size_t>(t)]);
+    } else {
+      kept.push_back(t);
+    }
+  }
+  task.complex.triangles = Triangles(task.complex.triangles(kept, Eigen::all));
+  return left_out;
+}
+
+[[noreturn]] void refuse_crossing(const Task& task, const std::vector<int>& crossing) {
+  constexpr size_t kNamed = 10;
+  std::string text = "scaffold: triangles ";
+  for (size_t i = 0; i < std::min(kNamed, crossing.size()); ++i) {
+    const int triangle = task.surface.originals.at(static_cast<size_t>(crossing[i]));
+    text += (i > 0 ? ", " : "") + std::to_string(triangle);
+  }
+  if (crossing.size() > kNamed) text += " and " + std::to_string(crossing.size() - kNamed) + " more";
+  throw Unsolvable(text + " cross or overlap others");
+}
+
+using Face = std::array<int, 3>;
+
+Face face(int a, int b, int c) {
+  Face corners{a, b, c};
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+[[noreturn]] void distrust(const std::string& what) {
+  throw Unsolvable("scaffold: TetGen returns " + what + "; repair what nearly touches or overlaps");
+}
+
+void check_indices(const Filling& filling) {
+  const auto& tetrahedra = filling.tetrahedra;
+  if (tetrahedra.rows() == 0) distrust("no tetrahedra");
+  if (tetrahedra.minCoeff() < 0 || tetrahedra.maxCoeff() >= filling.points.rows()) distrust("corners that are none");
+}
+
+/// That each triangle is a face of a tetrahedron.
+void check_faces(const Task& task, const Filling& filling) {
+  std::vector<Face> faces;
+  for (const auto& t : task.complex.triangles.rowwise()) faces.push_back(face(t[0], t[1], t[2]));
+  std::sort(faces.begin(), faces.end());
+  std::vector<bool> found(faces.size(), false);
+  for (const auto& t : filling.tetrahedra.rowwise()) {
+    for (const Face& side :
+         {face(t[0], t[1], t[2]), face(t[0], t[1], t[3]), face(t[0], t[2], t[3]), face(t[1], t[2], t[3])}) {
+      const auto at = std::lower_bound(faces.begin(), faces.end(), side);
+      if (at != faces.end() && *at == side) found[static_cast<size_t>(at - faces.begin())] = true;
+    }
+  }
+  const auto lost = std::count(found.begin(), found.end(), false);
+  if (lost > 0) distrust("tetrahedra that lack " + std::to_string(lost) + " of the triangles as faces");
+}
+
+double volume(const Positions& positions, const Eigen::RowVector4i& t) {
+  const Eigen::RowVector3d a = positions.row(t[0]), b = positions.row(t[1]), c = positions.row(t[2]),
+                           d = positions.row(t[3]);
+  return (b - a).cross(c - a).dot(d - a) / 6;
+}
+
+/// That they fill the box, none inside out. The smallest have less volume than rounding tells.
+void check_volumes(const Task& task, const Filling& filling) {
+  constexpr double kRounding = 1e-9;
+  const Eigen::Index corners = task.complex.points.rows() - kBoxCorners;
+  const Eigen::RowVector3d diagonal =
+      task.complex.points.row(corners + kBoxCorners - 1) - task.complex.points.row(corners);
+  const double box = diagonal.prod();
+  double sum = 0;
+  for (const auto& t : filling.tetrahedra.rowwise()) {
+    const double part = volume(filling.points, t);
+    if (part < -kRounding * box) distrust("a tetrahedron that is inside out");
+    sum += part;
+  }
+  if (!(std::abs(sum - box) < kRounding * box)) distrust("tetrahedra that do not fill the box");
+}
+
+void check_filling(const Task& task, const Filling& filling) {
+  const Eigen::Index count = task.complex.points.rows();
+  if (filling.points.rows() < count || filling.points.topRows(count) != task.complex.points) distrust("other points");
+  if (!filling.points.allFinite()) distrust("points that are not finite");
+  check_indices(filling);
+  check_faces(task, filling);
+  check_volumes(task, filling);
+}
+
+/// The filling with the mesh's own vertices, all of them, in front.
+Scaffold assemble(const PositionsRef& positions, const Task& task, const Filling& filling) {
+  const auto used = static_cast<int>(task.surface.vertices.size());
+  const auto count = static_cast<int>(positions.rows());
+  const Eigen::Index added = filling.points.rows() - used;
+  Scaffold result;
+  result.positions.resize(count + added, 3);
+  result.positions << positions, filling.points.bottomRows(added) / task.scale;
+  result.tetrahedra = filling.tetrahedra.unaryExpr(
+      [&](int v) { return v < used ? task.surface.vertices[static_cast<size_t>(v)] : v - used + count; });
+  return result;
+}
+
+Filling fill(const Task& task, const ScaffoldOptions& options, const Poll& poll) {
+  HelperLimits limits;
+  limits.seconds = options.time_limit;
+  try {
+    return tetrahedra_of(task.complex, options.quality, limits, poll);
+  } catch (const Unsolvable& error) {
+    throw Unsolvable(std::string("scaffold: ") + error.what());
+  }
+}
+
+}  // namespace
+
+Scaffold scaffold(const PositionsRef& positions, const TrianglesRef& triangles, const ScaffoldOptions& options,
+                  const ProgressFn& progress) {
+  check(positions, triangles);
+  check_options(options);
+  const Poll poll = sparing([&] { return !progress || progress({.stage = "scaffold"}); });
+  try {
+    Task task = make_task(positions, triangles, options.enlargement);
+    // An exact test for crossings of task.complex.triangles has its place here, before the first filling.
+    Filling filling = fill(task, options, poll);
+    std::vector<int> left_out;
+    if (options.leave_out_crossing && !filling.crossing.empty()) {
+      left_out = leave_out(task, filling.crossing);
+      filling = fill(task, options, poll);
+    }
+    if (!filling.crossing.empty()) refuse_crossing(task, filling.crossing);
+    check_filling(task, filling);
+    Scaffold result = assemble(positions, task, filling);
+    result.left_out = std::move(left_out);
+    return result;
+  } catch (const Cancelled&) {
+    return {};
+  }
+}
+
+}  // namespace swage

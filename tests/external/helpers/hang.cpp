@@ -1,0 +1,6 @@
+// Neither reads, answers nor ends.
+#include <unistd.h>
+
+int main() {
+  for (;;) pause();
+}
