@@ -27,11 +27,13 @@ constexpr const char* kOpenCl = "OFF";
 #endif
 #ifdef SWAGE_TETGEN
 constexpr const char* kTetgen = "ON";
-constexpr const char* kHelpers =
-    "\nrun as programs of their own, apart from this licence: swage-tetgen (TetGen, AGPL-3.0-or-later)";
 #else
 constexpr const char* kTetgen = "OFF";
-constexpr const char* kHelpers = "";
+#endif
+#ifdef SWAGE_CGAL
+constexpr const char* kCgal = "ON";
+#else
+constexpr const char* kCgal = "OFF";
 #endif
 #ifdef SWAGE_CHOLMOD
 constexpr const char* kCholmod = "ON";
@@ -44,9 +46,21 @@ constexpr const char* kCholmod = "OFF";
 constexpr const char* kLicence = "MIT";
 #endif
 
+std::string helpers_text() {
+  std::string text;
+#ifdef SWAGE_TETGEN
+  text += "swage-tetgen (TetGen, AGPL-3.0-or-later)";
+#endif
+#ifdef SWAGE_CGAL
+  text += std::string(text.empty() ? "" : ", ") + "swage-remesh (CGAL, GPL-3.0-or-later)";
+#endif
+  return text.empty() ? text : "\nrun as programs of their own, apart from this licence: " + text;
+}
+
 std::string version_text() {
   return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
-         ", CHOLMOD " + kCholmod + ", TetGen " + kTetgen + "\nlicence: " + kLicence + kHelpers;
+         ", CHOLMOD " + kCholmod + ", TetGen " + kTetgen + ", CGAL " + kCgal + "\nlicence: " + kLicence +
+         helpers_text();
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "weld.h"
+#include "distinct.h"
 
 namespace swage {
 namespace {

@@ -68,4 +68,8 @@ Distinct distinct(const Positions& positions, const Triangles& triangles) {
   return result;
 }
 
+Triangles welded(const Triangles& triangles, const std::vector<int>& first_at_place) {
+  return triangles.unaryExpr([&](int v) { return first_at_place[static_cast<size_t>(v)]; });
+}
+
 }  // namespace swage

@@ -20,4 +20,7 @@ Distinct distinct(const Positions& positions, const Triangles& triangles);
 /// For each vertex the first at its place.
 std::vector<int> first_at_place(const Positions& positions);
 
+/// The triangles with each vertex replaced by the first one at its place.
+Triangles welded(const Triangles& triangles, const std::vector<int>& first_at_place);
+
 }  // namespace swage

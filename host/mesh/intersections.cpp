@@ -7,7 +7,7 @@
 
 #include "box_tree.h"
 #include "crossing.h"
-#include "weld.h"
+#include "distinct.h"
 
 namespace swage {
 namespace {

@@ -1,16 +1,12 @@
-// Vertices at one place.
+// A surface whose triangles meet where they touch.
 #pragma once
-
-#include <vector>
 
 #include "swage/mesh.h"
 
 namespace swage {
 
-/// Of each vertex the first one with the same coordinates.
-std::vector<int> first_at_place(const Positions& positions);
-
-/// The triangles with each vertex replaced by the first one at its place.
-Triangles welded(const Triangles& triangles, const std::vector<int>& first_at_place);
+/// Vertices at one place made one, in the order of the first at each; without vertices of no triangle, triangles with a
+/// vertex twice, and all but the first of triangles on the same three vertices.
+Mesh welded(const Positions& positions, const Triangles& triangles);
 
 }  // namespace swage

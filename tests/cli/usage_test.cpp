@@ -6,6 +6,7 @@
 
 #include "factor.h"
 #include "program.h"
+#include "remesher.h"
 #include "tetrahedra.h"
 
 namespace swage::test {
@@ -74,6 +75,8 @@ TEST_F(Usage, HelpAndVersionOnEveryLevel) {
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "CHOLMOD ON" : "CHOLMOD OFF"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "licence: GPL-3.0-or-later" : "licence: MIT"));
     EXPECT_THAT(told.out, HasSubstr(has_tetgen() ? "TetGen ON" : "TetGen OFF"));
+    EXPECT_THAT(told.out, HasSubstr(has_cgal() ? "CGAL ON" : "CGAL OFF"));
+    EXPECT_EQ(told.out.find("swage-remesh") != std::string::npos, has_cgal());
     // A program of its own: its licence is not the program's.
     EXPECT_EQ(told.out.find("AGPL") != std::string::npos, has_tetgen());
     EXPECT_THAT(told.out, testing::Not(testing::ContainsRegex("licence: [^\n]*AGPL")));

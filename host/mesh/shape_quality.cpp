@@ -1,0 +1,64 @@
+#include "shape_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace swage {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Shape {
+  double area, smallest_angle;
+  std::array<double, 3> sides;
+};
+
+Shape shape_of(const Positions& positions, const Eigen::RowVector3i& triangle) {
+  Shape shape{0, std::numbers::pi, {}};
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::RowVector3d a = positions.row(triangle[k]);
+    const Eigen::RowVector3d ab = positions.row(triangle[(k + 1) % 3]) - a;
+    const Eigen::RowVector3d ac = positions.row(triangle[(k + 2) % 3]) - a;
+    const double twice_area = ab.cross(ac).norm();
+    shape.area = twice_area / 2;
+    shape.smallest_angle = std::min(shape.smallest_angle, std::atan2(twice_area, ab.dot(ac)));
+    shape.sides[static_cast<size_t>(k)] = ab.norm();
+  }
+  return shape;
+}
+
+}  // namespace
+
+ShapeQuality shape_quality(const Positions& positions, const Triangles& triangles) {
+  ShapeQuality quality;
+  quality.triangles = static_cast<int>(triangles.rows());
+  if (quality.triangles == 0) return quality;
+  double area = 0, sharp = 0, length = 0, longest = 0;
+  std::vector<double> angles;
+  for (const auto& triangle : triangles.rowwise()) {
+    const Shape shape = shape_of(positions, triangle);
+    area += shape.area;
+    if (shape.smallest_angle < 10 * kDegree) sharp += shape.area;
+    angles.push_back(shape.smallest_angle);
+    for (const double side : shape.sides) length += side, longest = std::max(longest, side);
+  }
+  const double mean = length / (3.0 * quality.triangles);
+  const auto low = angles.begin() + quality.triangles / 20;
+  std::nth_element(angles.begin(), low, angles.end());
+  quality.low_angle = *low;
+  if (area > 0) quality.sharp_area = sharp / area;
+  if (mean > 0) quality.longest_over_mean = longest / mean;
+  if (mean > 0) quality.mean_over_diagonal = mean / box_diagonal(positions(triangles.reshaped(), Eigen::all));
+  return quality;
+}
+
+bool badly_shaped(const ShapeQuality& quality) {
+  return quality.triangles == 0 || quality.low_angle < 10 * kDegree || quality.sharp_area > 0.1 ||
+         quality.longest_over_mean > 8 || quality.mean_over_diagonal > 0.08;
+}
+
+}  // namespace swage

@@ -1,0 +1,25 @@
+// Whether a mesh's triangles suit reshaping: "sufficiently fine connected triangle meshes, with well-shaped triangles
+// and roughly uniform mesh density" (Araújo et al. 2023, section 5).
+#pragma once
+
+#include "swage/mesh.h"
+
+namespace swage {
+
+struct ShapeQuality {
+  int triangles = 0;
+  double sharp_area = 1;          ///< Share of the area in triangles with an angle below 10 degrees.
+  double low_angle = 0;           ///< 5th percentile of the triangles' smallest angles, radians.
+  double longest_over_mean = 1;   ///< Edge lengths, each edge once a triangle.
+  double mean_over_diagonal = 1;  ///< Edge length over the diagonal of the triangles' box.
+};
+
+/// Triangles without area count as of angle 0. Without triangles, as the struct stands.
+ShapeQuality shape_quality(const Positions& positions, const Triangles& triangles);
+
+/// Whether a mesh is to be remeshed before it is reshaped: one triangle in twenty has an angle below 10 degrees, or a
+/// tenth of the area lies in such (needles), an edge is more than 8 times as long as the mean (uneven), or the mean is
+/// above 0.08 of the diagonal (coarse). So are all 68 real models known for bad shape, and 2 of 50 known for good.
+bool badly_shaped(const ShapeQuality& quality);
+
+}  // namespace swage
