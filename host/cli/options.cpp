@@ -25,6 +25,11 @@ constexpr const char* kOpenCl = "ON";
 #else
 constexpr const char* kOpenCl = "OFF";
 #endif
+#ifdef SWAGE_EMBREE
+constexpr const char* kEmbree = "ON";
+#else
+constexpr const char* kEmbree = "OFF";
+#endif
 #ifdef SWAGE_CHOLMOD
 constexpr const char* kCholmod = "ON";
 // Apache-2.0 goes with version 3 of the GPL only.
@@ -38,7 +43,7 @@ constexpr const char* kLicence = "MIT";
 
 std::string version_text() {
   return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
-         ", CHOLMOD " + kCholmod + "\nlicence: " + kLicence;
+         ", CHOLMOD " + kCholmod + ", Embree " + kEmbree + "\nlicence: " + kLicence;
 }
 
 }  // namespace

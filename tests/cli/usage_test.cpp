@@ -6,6 +6,7 @@
 
 #include "factor.h"
 #include "program.h"
+#include "rays_embree.h"
 
 namespace swage::test {
 namespace {
@@ -71,6 +72,7 @@ TEST_F(Usage, HelpAndVersionOnEveryLevel) {
     EXPECT_THAT(told.out, StartsWith("swage 0."));
     EXPECT_THAT(told.out, testing::ContainsRegex("OpenMP O(N|FF)"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "CHOLMOD ON" : "CHOLMOD OFF"));
+    EXPECT_THAT(told.out, HasSubstr(has_embree() ? "Embree ON" : "Embree OFF"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "licence: GPL-3.0-or-later" : "licence: MIT"));
   }
 }
