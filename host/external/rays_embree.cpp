@@ -58,8 +58,8 @@ void fill(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const Rows
 bool has_embree() { return true; }
 
 struct RayScene::Embree {
-  // One thread builds: the same tree every time, and no threads of Embree's beside ours.
-  Embree() : device(rtcNewDevice("threads=1")), scene(device ? rtcNewScene(device) : nullptr) {
+  // With as many threads as Embree likes: a smaller number would hold for all of the process's use of TBB.
+  Embree() : device(rtcNewDevice(nullptr)), scene(device ? rtcNewScene(device) : nullptr) {
     if (!scene) throw std::bad_alloc();
   }
   ~Embree() {

@@ -42,7 +42,7 @@ FootSearch::FootSearch(Mesh mesh, int directions)
 
 Foot FootSearch::operator()(const Vector3d& point, const Vector3d& normal, double detour) const {
   const Vector3d from = brought_near(point);
-  const Foot foot = closest(from, std::numeric_limits<double>::infinity(), {});
+  Foot foot = closest(from, std::numeric_limits<double>::infinity(), {});
   const auto faces = [&](int triangle) { return normals_.row(triangle).dot(normal) >= 0; };
   if (faces(foot.triangle)) return foot;
   const double reach = detour * std::sqrt(foot.squared_distance) + kRounding;
