@@ -35,6 +35,11 @@ constexpr const char* kCgal = "ON";
 #else
 constexpr const char* kCgal = "OFF";
 #endif
+#ifdef SWAGE_EMBREE
+constexpr const char* kEmbree = "ON";
+#else
+constexpr const char* kEmbree = "OFF";
+#endif
 #ifdef SWAGE_CHOLMOD
 constexpr const char* kCholmod = "ON";
 // Apache-2.0 goes with version 3 of the GPL only.
@@ -59,8 +64,8 @@ std::string helpers_text() {
 
 std::string version_text() {
   return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
-         ", CHOLMOD " + kCholmod + ", TetGen " + kTetgen + ", CGAL " + kCgal + "\nlicence: " + kLicence +
-         helpers_text();
+         ", CHOLMOD " + kCholmod + ", Embree " + kEmbree + ", TetGen " + kTetgen + ", CGAL " + kCgal +
+         "\nlicence: " + kLicence + helpers_text();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "factor.h"
 #include "program.h"
+#include "rays_embree.h"
 #include "remesher.h"
 #include "tetrahedra.h"
 
@@ -73,6 +74,7 @@ TEST_F(Usage, HelpAndVersionOnEveryLevel) {
     EXPECT_THAT(told.out, StartsWith("swage 0."));
     EXPECT_THAT(told.out, testing::ContainsRegex("OpenMP O(N|FF)"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "CHOLMOD ON" : "CHOLMOD OFF"));
+    EXPECT_THAT(told.out, HasSubstr(has_embree() ? "Embree ON" : "Embree OFF"));
     EXPECT_THAT(told.out, HasSubstr(has_cholmod() ? "licence: GPL-3.0-or-later" : "licence: MIT"));
     EXPECT_THAT(told.out, HasSubstr(has_tetgen() ? "TetGen ON" : "TetGen OFF"));
     EXPECT_THAT(told.out, HasSubstr(has_cgal() ? "CGAL ON" : "CGAL OFF"));
