@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -15,7 +15,11 @@ using Run = std::pair<int, int>;
 class Polyline {
  public:
   Polyline(const Positions& points, double deviation, double shortest)
-      : points_(points), deviation_(deviation), shortest_(shortest), along_{0} {
+      : points_(points),
+        deviation_(deviation),
+        shortest_(shortest),
+        along_{0},
+        open_{{0, static_cast<int>(points.rows()) - 1}} {
     for (Eigen::Index i = 1; i < points.rows(); ++i) {
       const double step = (points.row(i) - points.row(i - 1)).norm();
       along_.push_back(along_.back() + step);
@@ -23,18 +27,17 @@ class Polyline {
     }
   }
 
-  std::vector<Run> straight_runs() const {
-    std::vector<Run> found, open{{0, static_cast<int>(points_.rows()) - 1}};
-    while (!open.empty()) {
-      const auto [first, last] = open.back();
-      open.pop_back();
-      const std::optional<Run> run = longest_run(first, last);
-      if (!run) continue;
-      found.push_back(*run);
-      open.insert(open.end(), {{first, run->first}, {run->second, last}});
+  /// Looks through windows of half the length each time: one lies within a run of at least 2/5 of the run's length.
+  std::vector<Run> straight_runs() && {
+    const double least = std::max(shortest_ / 4, shortest_step_);
+    for (double window = along_.back(); window > least; window /= 2) {
+      for (const Run& part : std::exchange(open_, {})) take_runs(part, window);
     }
-    std::sort(found.begin(), found.end());
-    return found;
+    for (const auto& [first, last] : open_) {
+      for (int i = first; i < last; ++i) take({i, i + 1});
+    }
+    std::sort(runs_.begin(), runs_.end());
+    return std::move(runs_);
   }
 
  private:
@@ -57,28 +60,33 @@ class Polyline {
     return true;
   }
 
-  /// Looks through windows of half the length each time: one lies within a run of at least 2/5 of the run's length.
-  std::optional<Run> longest_run(int first, int last) const {
-    if (last <= first || length({first, last}) < shortest_) return {};
-    const double least = std::max(shortest_ / 4, shortest_step_);
-    for (double window = length({first, last}); window > least; window /= 2) {
-      for (int i = first; i < last; i = std::max(i + 1, reach(at(i) + window / 4))) {
-        Run run{i, std::max(i + 1, reach(at(i) + window * (1 - kRounding)))};
-        if (run.second > last) break;
-        if (!is_straight(run)) continue;
-        run = extended(run, first, last);
-        if (length(run) >= shortest_) return run;
-      }
-    }
-    return {};
+  bool take(const Run& run) {
+    if (length(run) < shortest_) return false;
+    runs_.push_back(run);
+    return true;
   }
 
-  Run extended(Run run, int first, int last) const {
-    for (int step = static_cast<int>(std::bit_floor(static_cast<unsigned>(last - first))); step > 0; step /= 2) {
+  /// Those of three points or more in a part; what is between them stays open.
+  void take_runs(Run part, double window) {
+    for (int i = part.first; i + 2 <= part.second; i = std::max(i + 1, reach(at(i) + window / 4))) {
+      Run run{i, std::max(i + 2, reach(at(i) + window * (1 - kRounding)))};
+      if (run.second > part.second) break;
+      if (!is_straight(run)) continue;
+      run = extended(run, part);
+      if (!take(run)) continue;
+      open_.emplace_back(part.first, run.first);
+      part.first = i = run.second;
+    }
+    open_.push_back(part);
+  }
+
+  Run extended(Run run, const Run& part) const {
+    for (int step = static_cast<int>(std::bit_floor(static_cast<unsigned>(part.second - part.first))); step > 0;
+         step /= 2) {
       const Run later{run.first, run.second + step};
-      if (later.second <= last && is_straight(later)) run = later;
+      if (later.second <= part.second && is_straight(later)) run = later;
       const Run earlier{run.first - step, run.second};
-      if (earlier.first >= first && is_straight(earlier)) run = earlier;
+      if (earlier.first >= part.first && is_straight(earlier)) run = earlier;
     }
     return run;
   }
@@ -89,6 +97,8 @@ class Polyline {
   double deviation_, shortest_;
   std::vector<double> along_;  ///< Length up to each point.
   double shortest_step_ = std::numeric_limits<double>::infinity();
+  std::vector<Run> open_;  ///< Parts in which more may be found.
+  std::vector<Run> runs_;
 };
 
 }  // namespace
