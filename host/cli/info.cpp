@@ -8,6 +8,7 @@
 #include "options.h"
 #include "progress_bar.h"
 #include "report_json.h"
+#include "straight.h"
 #include "swage/diagnose.h"
 #include "swage/error.h"
 #include "swage/mesh_io.h"
@@ -168,13 +169,16 @@ Diagnosis diagnose_file(const MeshFile& file, const CommonOptions& common) {
   return found;
 }
 
-void run_info(const std::string& path, const std::string& json_path, const CommonOptions& common) {
+void run_info(const std::string& path, const std::string& json_path, const ChainsOutput& chains,
+              const CommonOptions& common) {
   if (!json_path.empty()) check_can_be_written(json_path, "--json");
+  check(chains, json_path);
   apply(common);
   const MeshFile file = read_mesh(path);
   for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
   const Diagnosis found = diagnose_file(file, common);
   const Verdict verdict = ask_reshape(file.mesh, found);
+  write(chains, file.mesh);
   write_json(json_path, info_json(path, file, found, verdict));
   if (json_path != kStdout) print(path, found, verdict);
 }
@@ -185,9 +189,12 @@ Command info_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* app = program.add_subcommand("info", "Tells what is wrong or special with a mesh");
   auto mesh = std::make_shared<std::string>();
   auto json = std::make_shared<std::string>();
+  auto chains = std::make_shared<ChainsOutput>();
   app->add_option("MESH", *mesh, "The mesh: .obj .ply .stl .off")->required();
   app->add_option("--json", *json, "The facts as JSON; - for stdout, instead of the table")->type_name("FILE");
-  return {app, [mesh, json, &common] { run_info(*mesh, *json, common); }};
+  CLI::Option* straight = app->add_option("--straight", chains->path, "Writes the straight chains found, one a line");
+  add_finding_options(*app, chains->finding, *straight->type_name("FILE"));
+  return {app, [mesh, json, chains, &common] { run_info(*mesh, *json, *chains, common); }};
 }
 
 }  // namespace swage::cli

@@ -34,9 +34,7 @@ ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const Bac
   if (!job.curvature.empty()) {
     options.unit_box_curvatures = read_unit_box_curvatures(job.curvature, static_cast<int>(mesh.triangles.rows()));
   }
-  if (!job.straight.empty()) {
-    options.straight_chains = read_straight_chains(job.straight, static_cast<int>(mesh.positions.rows()));
-  }
+  options.straight_chains = chains_for(job.straight, job.finding, mesh);
   return options;
 }
 
@@ -85,6 +83,7 @@ void check_method(const ReshapeJob& job) {
   if (linear_solver(job.linear_solver) == LinearSolver::multigrid && job.solver == "published") {
     throw WrongUsage("--linear-solver multigrid does not go with --solver published, which factors: leave one out");
   }
+  check_finding(job.straight, job.finding);
 }
 
 void check_outputs(const ReshapeJob& job) {
@@ -121,9 +120,11 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("--curvature", job.curvature, "Principal curvatures, instead of computing them")
       ->group(group)
       ->type_name("FILE.fk");
-  app.add_option("--straight", job.straight, "Vertex chains that stay straight, one a line")
-      ->group(group)
-      ->type_name("FILE");
+  CLI::Option* straight = app.add_option("--straight", job.straight,
+                                         "Edges that stay straight: auto finds them, none, or a file of chains (none)")
+                              ->group(group)
+                              ->type_name("auto|none|FILE");
+  add_finding_options(app, job.finding, *straight);
   app.add_option("--feature-angle", job.feature_angle,
                  "Surfaces beside an edge of a smaller interior angle stretch independently, degrees (105)")
       ->group(group)
@@ -158,7 +159,9 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   write_result(job.output, job, file, result.positions);
   seconds.write = write.seconds();
   seconds.total = total.seconds();
-  write_json(job.json, report_json(job, file, gesture, result, *options.backend, seconds));
+  Json report = report_json(job, file, gesture, result, *options.backend, seconds);
+  report["straight_chains"] = options.straight_chains.size();
+  write_json(job.json, report);
   spdlog::info("{}: {} passes ({}), {:.2f} s", job.mesh, result.report.passes, to_string(result.report.stop),
                seconds.total);
   return result;

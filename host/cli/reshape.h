@@ -5,6 +5,7 @@
 
 #include "gesture_options.h"
 #include "options.h"
+#include "straight.h"
 #include "swage/reshape.h"
 
 namespace swage::cli {
@@ -16,8 +17,9 @@ struct ReshapeJob {
   std::string method = "slippage";
   std::string solver = "steady";
   std::string linear_solver = "auto";
-  std::string curvature;       ///< A .fk file; empty to compute.
-  std::string straight;        ///< A file of straight chains; empty for none.
+  std::string curvature;          ///< A .fk file; empty to compute.
+  std::string straight = "none";  ///< Straight chains: auto finds them, none, or a file of them.
+  StraightFinding finding;
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.
   bool no_finalise = false;
 };

@@ -61,6 +61,12 @@ double dihedral_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& othe
   return std::numbers::pi - std::atan2(normal.cross(other).norm(), normal.dot(other));
 }
 
+double turn_at(const PositionsRef& positions, int before, int vertex, int after) {
+  const Eigen::RowVector3d from = positions.row(vertex) - positions.row(before);
+  const Eigen::RowVector3d to = positions.row(after) - positions.row(vertex);
+  return std::atan2(from.cross(to).norm(), from.dot(to));
+}
+
 UnitBox unit_box(const PositionsRef& positions) {
   const Eigen::RowVector3d low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
   const double extent = (high - low).maxCoeff();

@@ -24,6 +24,9 @@ double mean_edge_length(const Positions& positions, const Triangles& triangles);
 /// Angle between the surfaces of two triangles with these unit normals, in [0, pi], pi where flat.
 double dihedral_angle(const Eigen::Vector3d& normal, const Eigen::Vector3d& other);
 
+/// Angle in [0, pi] by which a polyline over three vertices turns at the second, 0 where straight.
+double turn_at(const PositionsRef& positions, int before, int vertex, int after);
+
 /// Where a mesh lies: subtract `corner`, divide by `extent`, and it fits the unit box.
 struct UnitBox {
   Eigen::RowVector3d corner;

@@ -38,6 +38,10 @@ void write_gestures(const std::filesystem::path& path, const std::vector<Gesture
 /// visits a vertex twice in a row.
 std::vector<std::vector<int>> read_straight_chains(const std::filesystem::path& path, int vertex_count);
 
+/// Writes chains as read_straight_chains reads them. Throws InvalidInput where one is empty, holds a negative index or
+/// visits a vertex twice in a row, and UnwritableFile.
+void write_straight_chains(const std::filesystem::path& path, const std::vector<std::vector<int>>& chains);
+
 /// A set of vertices described in words:
 ///   12,40-52           vertices and ranges of vertices
 ///   @file              vertex indices in a file, separated by white space or commas

@@ -192,6 +192,29 @@ TEST(StraightChains, AreReadLineByLine) {
   }
 }
 
+TEST(StraightChains, ComeBackAsWritten) {
+  const TempFolder folder;
+  const std::vector<std::vector<int>> chains = {{3, 1, 2}, {7}, {0, 99999, 0}};
+  write_text(folder / "a.straight", "9 8 7");
+  write_straight_chains(folder / "a.straight", chains);
+  EXPECT_EQ(read_text(folder / "a.straight"), "3 1 2\n7\n0 99999 0\n");
+  EXPECT_EQ(read_straight_chains(folder / "a.straight", 100000), chains);
+  write_straight_chains(folder / "a.straight", {});
+  EXPECT_TRUE(read_straight_chains(folder / "a.straight", 1).empty());
+}
+
+TEST(StraightChains, RefuseToBeWrittenWhereTheyCouldNotBeRead) {
+  const TempFolder folder;
+  for (const std::vector<int>& bad : {std::vector<int>{}, {1, -2}, {4, 4}}) {
+    EXPECT_THAT(message_of<InvalidInput>([&] {
+                  write_straight_chains(folder / "a", {{1, 2}, bad});
+                }),
+                HasSubstr("chain 1"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+  EXPECT_THROW(write_straight_chains(folder / "missing" / "a", {{1, 2}}), UnwritableFile);
+}
+
 TEST(CurvatureFile, HasALineATriangle) {
   const TempFolder folder;
   write_text(folder / "a.fk", "1.5 -2e-3\r\n0 0\n\n");
