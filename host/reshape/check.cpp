@@ -30,6 +30,12 @@ void check_options(const ReshapeOptions& options, const Mesh& mesh) {
         "Reshape: options.linear_solver: the published solver and refactor_every_pass need a factor; take the steady "
         "solver for multigrid");
   }
+  if (options.stand_in_triangles < 100 || options.stand_in_triangles > 1'000'000) {
+    throw InvalidInput("Reshape: options.stand_in_triangles: not in [100, 1000000]");
+  }
+  if (options.solver == ReshapeSolver::published && options.remesh == When::always) {
+    throw InvalidInput("Reshape: options.remesh: the published solver takes the mesh as it is; take the steady solver");
+  }
   if (options.acceleration_window < 0 || options.acceleration_window > 50) {
     throw InvalidInput("Reshape: options.acceleration_window: not in [0, 50]");
   }
@@ -55,6 +61,18 @@ void check_start(const ReshapeResult& start, const ReshapeOptions& options, cons
   };
   check_matrix("unfinished", start.unfinished, mesh.positions.rows(), " vertices");
   check_matrix("transforms", start.transforms, mesh.triangles.rows(), " triangles");
+}
+
+const char* to_string(When when) {
+  switch (when) {
+    case When::never:
+      return "never";
+    case When::always:
+      return "always";
+    case When::automatic:
+      break;
+  }
+  return "auto";
 }
 
 void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh) {

@@ -119,10 +119,22 @@ Positions Given::back(const Positions& positions, const Transforms& transforms) 
   return given;
 }
 
+ReshapedScaffold Given::back(const ReshapedScaffold& solved, const Positions& positions) const {
+  const auto surface = static_cast<int>(vertices_.size());
+  const Eigen::Index own = solved.positions.rows() - surface;
+  ReshapedScaffold given{Positions(positions.rows() + own, 3), solved.tetrahedra};
+  given.positions << positions, solved.positions.bottomRows(own);
+  const auto first_own = static_cast<int>(positions.rows());
+  given.tetrahedra =
+      solved.tetrahedra.unaryExpr([&](int v) { return v < surface ? vertex(v) : first_own + v - surface; });
+  return given;
+}
+
 ReshapeResult Given::back(const ReshapeResult& solved) const {
   ReshapeResult result = solved;
   result.positions = back(solved.positions, solved.transforms);
   result.unfinished = back(solved.unfinished, solved.transforms);
+  if (solved.scaffold) result.scaffold = back(*solved.scaffold, result.positions);
   result.transforms = identities(mesh_.triangles.rows());
   for (size_t t = 0; t < triangle_of_.size(); ++t) {
     if (triangle_of_[t] >= 0)

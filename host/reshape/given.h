@@ -42,6 +42,7 @@ class Given {
   };
 
   Positions back(const Positions& positions, const Transforms& transforms) const;
+  ReshapedScaffold back(const ReshapedScaffold& solved, const Positions& positions) const;
   /// Vertices at one place are there to a tolerance only.
   Eigen::RowVector3d aside(int vertex) const;
   void list_loose(const Mesh& surface);

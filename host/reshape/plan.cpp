@@ -7,6 +7,7 @@
 #include "element_graphs.h"
 #include "flat.h"
 #include "links.h"
+#include "stand_in.h"
 
 namespace swage {
 namespace {
@@ -47,17 +48,26 @@ bool multigrid_suits(const ReshapePlan& plan, Workspace& work, const Poll& poll)
 }
 
 /// Joins components that no triangle joins.
-void join_components(ReshapePlan& plan, const Mesh& unit_mesh, const Poll& poll) {
+void join_components(ReshapePlan& plan, const Mesh& unit_mesh, TransformStep::Rest& rest, const Poll& poll) {
   const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
   const int count = 1 + *std::max_element(component.begin(), component.end());
   if (count == 1) return;
   Links links = contacts(unit_mesh, plan.edges, poll);
-  add_links(unit_mesh, poll, links);
+  std::string& told = plan.paths.components;
+  told = std::to_string(count) + " components, " + std::to_string(links.contacts) + " contacts; ";
+  std::string why_not;
+  if (std::optional<ScaffoldTies> ties =
+          scaffold_ties(plan.options, unit_mesh, component, links.contacts, poll, why_not)) {
+    told += "scaffold of " + std::to_string(ties->scaffold.tetrahedra.rows()) + " tetrahedra";
+    rest.vertices = ties->scaffold.positions;
+    plan.scaffold = std::move(ties->scaffold.tetrahedra);
+    links.ties.insert(links.ties.end(), ties->ties.begin(), ties->ties.end());
+  } else {
+    add_links(unit_mesh, poll, links);
+    told += std::to_string(links.ties.size() - static_cast<size_t>(links.contacts)) +
+            " links between nearest points, no scaffold: " + why_not;
+  }
   plan.bonds.ties = std::move(links.ties);
-  plan.paths.components = "links: " + std::to_string(count) + " components, joined at " +
-                          std::to_string(links.contacts) + " contacts and by " +
-                          std::to_string(plan.bonds.ties.size() - static_cast<size_t>(links.contacts)) +
-                          " links between nearest points";
 }
 
 void make(ReshapePlan& plan, const ProgressFn& progress) {
@@ -70,6 +80,11 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   };
   const Poll poll = sparing(asked);
   const Stopwatch watch(plan.prepare_seconds);
+  plan.stand_in = stand_in_for(plan, progress, plan.paths.mesh);
+  if (plan.stand_in) {
+    plan.prepared = true;
+    return;
+  }
   const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
   begin("curvature", 0);
   const Curvatures curvatures = plan.options.unit_box_curvatures
@@ -77,14 +92,15 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
                                     : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
   poll();
   plan.weights = step_weights(plan.options, unit_mesh);
-  plan.rest = std::make_shared<const TransformStep::Rest>(rest_shape(plan.options, unit_mesh, plan.edges, curvatures));
+  TransformStep::Rest rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
   const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
   plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
   plan.paths =
       choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.bonds.straight.empty());
   plan.bonds.straightness_weight = plan.weights.straightness;
   begin("components", 0.15);
-  join_components(plan, unit_mesh, poll);
+  join_components(plan, unit_mesh, rest, poll);
+  plan.rest = std::make_shared<const TransformStep::Rest>(std::move(rest));
   begin("order", 0.2);
   plan.vertices = vertex_system(*plan.rest, plan.bonds, vertex_factor_kind(plan), poll);
   begin("factor", 0.4);

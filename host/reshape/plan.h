@@ -19,6 +19,7 @@
 #include "stopwatch.h"
 #include "surface.h"
 #include "swage/reshape.h"
+#include "swage/scaffold.h"
 
 namespace swage {
 
@@ -104,10 +105,11 @@ struct Workspace {
 struct Paths {
   LinearSolver vertices = LinearSolver::factor, transforms = LinearSolver::factor;  ///< Never automatic.
   std::string why_vertices, why_transforms, why_no_coarse_start;
-  std::string components = "one";
+  std::string components = "one", mesh = "as given";
 };
 
 struct CoarsePlan;
+struct StandIn;
 
 /// Solves read it, several at once, but for the pool.
 struct ReshapePlan {
@@ -128,6 +130,8 @@ struct ReshapePlan {
   std::optional<BlockSystem> transforms = {};  ///< Factored, where it is to be.
   std::optional<Multilevel> multilevel = {};   ///< Where not.
   std::shared_ptr<const CoarsePlan> coarse = {};
+  Tetrahedra scaffold = {};                ///< Of rest's vertices, where there is one.
+  std::shared_ptr<StandIn> stand_in = {};  ///< Solved in place of all this, of which then nothing is prepared.
   double prepare_seconds = 0;
   bool prepared = false;
 
@@ -151,6 +155,12 @@ struct Iterate {
 
 /// Of a whole call's progress, what preparation is.
 constexpr double kPrepared = 0.2;
+
+// solve.cpp
+std::unique_ptr<ReshapePlan> plan_of(Mesh mesh, const ReshapeOptions& options);
+/// Of points of the mesh as given. Fills `result.report`.
+ReshapeResult solve_holds(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* start,
+                          const ProgressFn& progress);
 
 // plan.cpp
 /// Once. False where `progress` cancelled: another call begins anew.

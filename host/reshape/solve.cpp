@@ -2,6 +2,7 @@
 #include "anderson.h"
 #include "coarse.h"
 #include "plan.h"
+#include "stand_in.h"
 #include "swage/error.h"
 
 namespace swage {
@@ -171,8 +172,6 @@ ReshapeResult solve(ReshapePlan& changing, const std::vector<Hold>& holds, const
                     const ProgressFn& progress) {
   const ReshapePlan& plan = changing;
   ReshapeResult result = unchanged(plan, from);
-  if (!prepare(changing, progress)) return result;
-
   Start start = start_of(plan, from);
   const ProgressFn solving = after_preparation(progress);
   double coarse_seconds = 0;
@@ -193,6 +192,7 @@ ReshapeResult solve(ReshapePlan& changing, const std::vector<Hold>& holds, const
     finish(plan, iterate, solving, positions, result);
   }
   result.positions = mesh_positions(plan, positions);
+  if (plan.scaffold.rows() > 0) result.scaffold = ReshapedScaffold{plan.box.back(positions), plan.scaffold};
   tell(plan, iterate, start.warm, positions, result.report);
   return result;
 }
@@ -210,7 +210,8 @@ auto in_given_numbers(const ReshapePlan& plan, const Call& call) {
     return call();
   } catch (const Indefinite& error) {
     if (!plan.given) throw;
-    const bool is_vertex = error.unknowns() == plan.rest->vertices.size();
+    const bool is_vertex = plan.rest && error.unknowns() == plan.rest->vertices.size();
+    if (plan.stand_in || !plan.rest) throw;
     if (is_vertex && error.element() >= plan.mesh.positions.rows()) throw;  // A scaffold's.
     throw Indefinite(error.unknowns(),
                      is_vertex ? plan.given->vertex(error.element()) : plan.given->triangle(error.element()));
@@ -224,35 +225,57 @@ void place_loose(const Given& given, const Gesture& gesture, ReshapeResult& resu
   }
 }
 
+const Mesh& given_mesh(const ReshapePlan& plan) { return plan.given ? plan.given->mesh() : plan.mesh; }
+
+ReshapeResult cancelled(const ReshapePlan& plan, const ReshapeResult* start) {
+  ReshapeResult result;
+  result.positions = result.unfinished = start ? start->unfinished : given_mesh(plan).positions;
+  result.transforms = start ? start->transforms : identities(given_mesh(plan).triangles.rows());
+  result.report.stop = Termination::cancelled;
+  return result;
+}
+
+ReshapeResult solve_stand_in(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* start,
+                             const ProgressFn& progress) {
+  StandIn& stand_in = *plan.stand_in;
+  const ReshapeResult* from = start ? start->stand_in.get() : nullptr;
+  ReshapeResult result = carried_back(stand_in, given_mesh(plan),
+                                      solve_holds(*stand_in.plan, on_stand_in(stand_in, holds), from, progress));
+  result.report.paths["mesh"] = plan.paths.mesh;
+  return result;
+}
+
 ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const ReshapeResult* start,
                              const ProgressFn& progress) {
-  const Mesh& given = plan.given ? plan.given->mesh() : plan.mesh;
+  const Mesh& given = given_mesh(plan);
   check(gesture, given.positions, given.triangles);
   if (start) check_start(*start, plan.options, given);
-  std::vector<Hold> holds = holds_of(gesture);
-  if (plan.given) holds = plan.given->into(holds);
-  if (holds.empty()) {
+  ReshapeResult result = solve_holds(plan, holds_of(gesture), start, progress);
+  if (plan.given) place_loose(*plan.given, gesture, result);
+  return result;
+}
+
+}  // namespace
+
+ReshapeResult solve_holds(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* start,
+                          const ProgressFn& progress) {
+  const std::vector<Hold> solved = plan.given ? plan.given->into(holds) : holds;
+  if (solved.empty()) {
     throw InvalidInput(
         "Reshape::solve: gesture: no handle is on the surface, only on vertices that no triangle has; "
         "pin or move others");
   }
   return in_given_numbers(plan, [&] {
-    if (!plan.given) return solve(plan, holds, start, progress);
+    if (!prepare(plan, progress)) return cancelled(plan, start);
+    if (plan.stand_in) return solve_stand_in(plan, holds, start, progress);
+    if (!plan.given) return solve(plan, solved, start, progress);
     std::optional<ReshapeResult> from;
     if (start) from = plan.given->into(*start);
-    ReshapeResult result = plan.given->back(solve(plan, holds, start ? &*from : nullptr, progress));
-    place_loose(*plan.given, gesture, result);
-    return result;
+    return plan.given->back(solve(plan, solved, start ? &*from : nullptr, progress));
   });
 }
 
-}  // namespace
-
-Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options) {
-  check(positions, triangles);
-  Mesh mesh{positions, triangles};
-  check_options(options, mesh);
-  check_chains(options.straight_chains, mesh);
+std::unique_ptr<ReshapePlan> plan_of(Mesh mesh, const ReshapeOptions& options) {
   Surface surface = surface_of(mesh, kSamePlace * unit_box(mesh.positions).extent);
   check_surface(surface);
   const SurfaceCounts counts = surface.counts;
@@ -263,8 +286,16 @@ Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, c
   if (!own.backend) own.backend = cpu_backend();
   const UnitBox box = unit_box(surface.mesh.positions);
   Bonds bonds{straight_triples(own.straight_chains, surface.edges)};
-  plan_.reset(new ReshapePlan{std::move(own), std::move(given), std::move(surface.mesh), counts, box,
-                              std::move(surface.edges), std::move(bonds)});
+  return std::unique_ptr<ReshapePlan>(new ReshapePlan{std::move(own), std::move(given), std::move(surface.mesh), counts,
+                                                      box, std::move(surface.edges), std::move(bonds)});
+}
+
+Reshape::Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options) {
+  check(positions, triangles);
+  Mesh mesh{positions, triangles};
+  check_options(options, mesh);
+  check_chains(options.straight_chains, mesh);
+  plan_ = plan_of(std::move(mesh), options);
 }
 
 Reshape::~Reshape() = default;

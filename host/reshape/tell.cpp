@@ -47,6 +47,7 @@ std::map<std::string, std::string> paths(const ReshapePlan& plan, const Workspac
   return {{"vertex_step", fell_back ? path(LinearSolver::factor, "multigrid did not converge")
                                     : path(plan.paths.vertices, plan.paths.why_vertices)},
           {"transform_step", path(plan.paths.transforms, plan.paths.why_transforms)},
+          {"mesh", plan.paths.mesh},
           {"components", plan.paths.components},
           {"start", start}};
 }

@@ -15,6 +15,7 @@
 #include "swage/handles.h"
 #include "swage/mesh.h"
 #include "swage/report.h"
+#include "swage/scaffold.h"
 #include "swage/steps.h"
 
 namespace swage {
@@ -41,6 +42,16 @@ enum class LinearSolver {
 
 /// "auto", "factor", "multigrid".
 const char* to_string(LinearSolver solver);
+
+/// Whether to do something that not every mesh needs.
+enum class When {
+  automatic,  ///< Where the mesh needs it and it can be had; the report says what was done.
+  never,
+  always,  ///< Throws where it cannot be had.
+};
+
+/// "auto", "never", "always".
+const char* to_string(When when);
 
 /// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box. Finite, none negative;
 /// handle and regularizer above 0. The defaults are the steady solver's, which takes them as of a mesh of 10,000 equal
@@ -76,16 +87,32 @@ struct ReshapeOptions {
                                      ///< machine's memory, whoever else uses it, at most 4 GiB.
   bool coarse_start = false;         ///< Steady, from 40,000 triangles on: first solve a coarse stand-in.
                                      ///< Fewer passes on models of many parts, more on smooth ones.
-  bool finalise = true;              ///< Spread dimples at handles (appendix A).
+  bool finalise = true;              ///< Hold handles harder that miss by 0.5 % of the diagonal, and spread dimples
+                                     ///< (appendix A), where that is better. Published: as published.
+  When scaffold = When::automatic;   ///< Components that no triangle joins: by tetrahedra between them (section 5.1),
+                                     ///< automatically where they neither touch nor cross, else by links between
+                                     ///< nearest points. Where they touch or cross they are held together there.
+  When remesh = When::never;         ///< Solve a remeshed stand-in and carry the edit back to the mesh (section 5.1),
+                                     ///< automatically where triangles are needles, uneven or too coarse. Curvatures
+                                     ///< and chains given are of the mesh: automatically no stand-in then, else unused.
+  int stand_in_triangles = 10'000;   ///< About as many has the stand-in; in [100, 1,000,000].
   bool refactor_every_pass = false;  ///< As published: the same result, slower. For comparison.
   std::shared_ptr<Backend> backend;  ///< Does the local steps; cpu_backend() where none is given.
+};
+
+/// The tetrahedra that join components, reshaped with them.
+struct ReshapedScaffold {
+  Positions positions;  ///< The mesh's #V, then the scaffold's own; mesh units.
+  Tetrahedra tetrahedra;
 };
 
 struct ReshapeResult {
   Positions positions;     ///< #V × 3, mesh units, the input's order.
   Positions unfinished;    ///< The same before finalising.
   Transforms transforms;   ///< #T × 9: rest edge → edited edge, of `unfinished` to the stop's tolerance.
-  bool finalised = false;  ///< Whether a dimple was found and spread.
+  bool finalised = false;  ///< Whether finalising changed anything.
+  std::optional<ReshapedScaffold> scaffold;       ///< Where there is one.
+  std::shared_ptr<const ReshapeResult> stand_in;  ///< Of the remeshed stand-in, where one was solved.
   Report report;
 };
 
@@ -97,8 +124,11 @@ struct ReshapePlan;  ///< What is kept of a mesh between solves.
 /// the cores with solves do best to call omp_set_num_threads(1) in each of their threads.
 class Reshape {
  public:
-  /// Throws InvalidInput where check(positions, triangles) does, an edge has not two triangles of one orientation, a
-  /// triangle is degenerate, or an option is out of its range.
+  /// Takes any list of triangles: open, of edges of three and more, wound against each other, repeated, without area,
+  /// in parts. Vertices within 1e-6 of the box's extent of each other are one; those of no triangle go with the nearest
+  /// surface. What of this was found is among the report's warnings.
+  /// Throws InvalidInput where check(positions, triangles) does, no triangle has an area, or an option is out of its
+  /// range.
   Reshape(const PositionsRef& positions, const TrianglesRef& triangles, const ReshapeOptions& options = {});
   ~Reshape();
   Reshape(Reshape&&) noexcept;
@@ -106,15 +136,18 @@ class Reshape {
 
   /// Prepares all that depends on the rest shape alone, among it the one factorisation of the transform step's
   /// matrix. The first solve does so where it was not done before. Returns false where `progress` cancelled; it must
-  /// not use this object.
+  /// not use this object. Throws Unavailable and Unsolvable where a scaffold or a stand-in is to be had always, and
+  /// cannot.
   bool prepare(const ProgressFn& progress = {});
 
   /// Moves the handles to their targets. Does not depend on earlier solves.
-  /// Throws InvalidInput as check(gesture, positions, triangles) does, and Unsolvable where a system is singular.
+  /// Throws InvalidInput as check(gesture, positions, triangles) does and where all handles are vertices of no
+  /// triangle, and Unsolvable where a system is singular.
   ReshapeResult solve(const Gesture& gesture, const ProgressFn& progress = {});
 
   /// The same from the result of another gesture on this mesh, as while dragging, instead of the rest shape: fewer
-  /// passes to the same fixed point, within the stop's tolerance. Reads start.unfinished and start.transforms.
+  /// passes to the same fixed point, within the stop's tolerance. Reads start.unfinished and start.transforms, or
+  /// start.stand_in where one is solved.
   /// Throws InvalidInput also where these do not fit the mesh or are not finite, and for the published solver, whose
   /// answer depends on where it starts.
   ReshapeResult solve(const Gesture& gesture, const ReshapeResult& start, const ProgressFn& progress = {});
