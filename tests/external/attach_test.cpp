@@ -1,20 +1,17 @@
 // Where points hang on a surface, against brute force.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include <vector>
 
 #include "foot_search.h"
 #include "measures.h"
 #include "points_near.h"
 #include "shapes.h"
-#include "swage/error.h"
 #include "swage/transfer.h"
 
 namespace swage {
@@ -22,7 +19,6 @@ namespace {
 
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
-using testing::HasSubstr;
 
 class Attach : public testing::Test {
  protected:
@@ -230,34 +226,6 @@ TEST_F(Attach, AVertexThatNoTriangleNamesDoesNotCount) {
   EXPECT_EQ(attached(points, mesh).offsets, without.offsets);
 }
 
-TEST_F(Attach, TakesColumnMajorMatrices) {
-  const Mesh mesh = test::torus();
-  const Eigen::MatrixXd points = test::points_near(mesh, 300, 1), positions = mesh.positions;
-  const Eigen::MatrixXi triangles = mesh.triangles;
-  const Attachments by_column = attach(points, positions, triangles), by_row = attached(points, mesh);
-  EXPECT_EQ(by_column.triangles, by_row.triangles);
-  EXPECT_EQ(by_column.barycentric, by_row.barycentric);
-  EXPECT_EQ(by_column.offsets, by_row.offsets);
-}
-
-#ifdef _OPENMP
-TEST_F(Attach, IsTheSameBytesForAnyNumberOfThreads) {
-  const Mesh mesh = test::bumpy_sphere(4);
-  const Positions points = test::points_near(mesh, 20000, 1);
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const Attachments one = attached(points, mesh);
-  for (const int count : {2, 5}) {
-    omp_set_num_threads(count);
-    const Attachments several = attached(points, mesh);
-    EXPECT_EQ(several.triangles, one.triangles) << count << " threads";
-    EXPECT_EQ(several.barycentric, one.barycentric) << count << " threads";
-    EXPECT_EQ(several.offsets, one.offsets) << count << " threads";
-  }
-  omp_set_num_threads(threads);
-}
-#endif
-
 TEST_F(Attach, NeedlesOfAFanAreToldApart) {
   const int sides = 3000;
   Mesh fan{Positions(sides + 1, 3), Triangles(sides, 3)};
@@ -276,64 +244,6 @@ TEST_F(Attach, NeedlesOfAFanAreToldApart) {
     const double turn = std::atan2(points(i, 1), points(i, 0)) / (2 * std::numbers::pi);
     EXPECT_EQ(attachments.triangles[i], static_cast<int>((turn < 0 ? turn + 1 : turn) * sides));
   }
-}
-
-TEST_F(Attach, TellsItsProgressAndCanBeCancelled) {
-  const Mesh mesh = test::sphere(1, 2);
-  const Positions points = test::points_near(mesh, 50000, 1);
-  std::vector<double> fractions;
-  const auto watch = [&](const Progress& progress) {
-    EXPECT_STREQ(progress.stage, "attach");
-    fractions.push_back(progress.fraction);
-    return true;
-  };
-  EXPECT_EQ(attach(points, mesh.positions, mesh.triangles, {}, watch).triangles.size(), 50000);
-  EXPECT_GT(fractions.size(), 3u);
-  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  EXPECT_EQ(fractions.front(), 0);
-  EXPECT_EQ(fractions.back(), 1);
-  for (const size_t allowed : {0u, 1u, 2u}) {
-    size_t asked = 0;
-    const Attachments none =
-        attach(points, mesh.positions, mesh.triangles, {}, [&](const Progress&) { return asked++ < allowed; });
-    EXPECT_EQ(asked, allowed + 1);
-    EXPECT_EQ(none.triangles.size(), 0);
-    EXPECT_EQ(none.offsets.rows(), 0);
-  }
-}
-
-template <typename Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const InvalidInput& e) {
-    return e.what();
-  }
-  return "";
-}
-
-TEST(AttachInput, RefusesWhatItCannotUse) {
-  Mesh mesh = test::sheet();
-  Positions points = Positions::Random(9, 3);
-  EXPECT_THAT(refusal([&] { attached(Positions(0, 3), mesh); }), HasSubstr("points"));
-  EXPECT_THAT(refusal([&] { attached(points, {Positions(0, 3), mesh.triangles}); }), HasSubstr("positions"));
-  EXPECT_THAT(refusal([&] { attached(points, {mesh.positions, Triangles(0, 3)}); }), HasSubstr("triangles"));
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -2e12}) {
-    points(7, 1) = bad;
-    EXPECT_THAT(refusal([&] { attached(points, mesh); }), HasSubstr("points: row 7"));
-  }
-  points(7, 1) = 0;
-  EXPECT_THAT(refusal([&] { attached(points, mesh, {.directions = -1}); }), HasSubstr("options.directions"));
-  EXPECT_THAT(refusal([&] { attached(points, mesh, {.directions = 10001}); }), HasSubstr("options.directions"));
-  EXPECT_THAT(refusal([&] { attached(points, mesh, {.detour = 0.5}); }), HasSubstr("options.detour"));
-  EXPECT_THAT(refusal([&] { attached(points, mesh, {.detour = std::nan("")}); }), HasSubstr("options.detour"));
-  EXPECT_THAT(refusal([&] { attached(points, mesh, {.normals = Positions::Zero(8, 3)}); }),
-              HasSubstr("options.normals: 8 rows"));
-  Positions normals = Positions::Random(9, 3);
-  normals(4, 0) = std::nan("");
-  EXPECT_THAT(refusal([&] { attached(points, mesh, {.normals = normals}); }), HasSubstr("options.normals: row 4"));
-  mesh.positions(3, 2) = std::nan("");
-  EXPECT_THAT(refusal([&] { attached(points, mesh); }), HasSubstr("vertex 3"));
 }
 
 TEST(SphereDirections, AreEven) {
