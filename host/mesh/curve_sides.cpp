@@ -22,10 +22,12 @@ class RunEnds {
  public:
   RunEnds(const PositionsRef& positions, const std::vector<std::vector<int>>& runs)
       : positions_(positions), runs_(runs) {
+    const int count = 2 * static_cast<int>(runs.size());
     std::vector<std::pair<int, int>> pairs;
-    for (int end = 0; end < 2 * static_cast<int>(runs.size()); ++end) pairs.emplace_back(vertex(end), end);
+    pairs.reserve(2 * runs.size());
+    for (int end = 0; end < count; ++end) pairs.emplace_back(vertex(end), end);
     at_ = lists_from(static_cast<int>(positions.rows()), pairs);
-    for (int end = 0; end < 2 * static_cast<int>(runs.size()); ++end) next_.push_back(straightest_alike(end));
+    for (int end = 0; end < count; ++end) next_.push_back(straightest_alike(end));
   }
 
   bool is_side_of_curve(int run) const {

@@ -43,6 +43,7 @@ class Lines {
     next_.assign(count, {-1, -1});
     met_.assign(count, 0);
     std::vector<std::pair<int, int>> pairs;
+    pairs.reserve(2 * count);
     for (int e = 0; e < edges.rows(); ++e) {
       for (int end : {0, 1}) pairs.emplace_back(edges(e, end), e);
     }

@@ -30,8 +30,10 @@ class Polyline {
   /// Looks through windows of half the length each time: one lies within a run of at least 2/5 of the run's length.
   std::vector<Run> straight_runs() && {
     const double least = std::max(shortest_ / 4, shortest_step_);
-    for (double window = along_.back(); window > least; window /= 2) {
+    double window = along_.back();
+    while (window > least) {
       for (const Run& part : std::exchange(open_, {})) take_runs(part, window);
+      window /= 2;
     }
     for (const auto& [first, last] : open_) {
       for (int i = first; i < last; ++i) take({i, i + 1});
