@@ -23,6 +23,13 @@ LinearSolver linear_solver(const std::string& name) {
   return LinearSolver::automatic;
 }
 
+When when(const std::string& name) {
+  for (const When choice : {When::never, When::always}) {
+    if (name == to_string(choice)) return choice;
+  }
+  return When::automatic;
+}
+
 ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const BackendChoice& choice) {
   ReshapeOptions options;
   options.solver = job.solver == to_string(ReshapeSolver::published) ? ReshapeSolver::published : ReshapeSolver::steady;
@@ -34,7 +41,11 @@ ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const Bac
   if (!job.curvature.empty()) {
     options.unit_box_curvatures = read_unit_box_curvatures(job.curvature, static_cast<int>(mesh.triangles.rows()));
   }
-  options.straight_chains = chains_for(job.straight, job.finding, mesh);
+  set_chains(job.straight, job.finding, mesh, options);
+  options.remesh = when(job.remesh);
+  options.scaffold = when(job.scaffold);
+  // What is published takes the mesh as it is.
+  if (options.solver == ReshapeSolver::published && options.remesh == When::automatic) options.remesh = When::never;
   return options;
 }
 
@@ -79,7 +90,19 @@ void write_result(const std::string& path, const ReshapeJob& job, const MeshFile
   write_stdout(text.str());
 }
 
+/// That of a stand-in is of its vertices.
+void write_scaffold(const std::string& path, const ReshapeResult& result) {
+  if (path.empty()) return;
+  const std::optional<ReshapedScaffold>& scaffold = result.stand_in ? result.stand_in->scaffold : result.scaffold;
+  if (!scaffold) throw Unsolvable("--scaffold-mesh: no scaffold was made: " + result.report.paths.at("components"));
+  write_tetrahedra(path, scaffold->positions, scaffold->tetrahedra);
+}
+
 void check_method(const ReshapeJob& job) {
+  if (job.solver == "published" && job.remesh == "always") {
+    throw WrongUsage(
+        "--remesh always does not go with --solver published, which takes the mesh as it is: leave one out");
+  }
   if (linear_solver(job.linear_solver) == LinearSolver::multigrid && job.solver == "published") {
     throw WrongUsage("--linear-solver multigrid does not go with --solver published, which factors: leave one out");
   }
@@ -131,6 +154,15 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
       ->check(between(0, 180))
       ->type_name("DEG");
   app.add_flag("--no-finalise", job.no_finalise, "Leave dimples at handles as they are")->group(group);
+  app.add_option("--remesh", job.remesh, "Solve a remeshed stand-in: auto where triangles are badly shaped (auto)")
+      ->group(group)
+      ->check(CLI::IsMember({"auto", "never", "always"}));
+  app.add_option("--scaffold", job.scaffold, "Join components by tetrahedra: auto where none touch (auto)")
+      ->group(group)
+      ->check(CLI::IsMember({"auto", "never", "always"}));
+  app.add_option("--scaffold-mesh", job.scaffold_mesh, "The tetrahedra, reshaped: .mesh or .vtk; needs a scaffold")
+      ->group(group)
+      ->type_name("FILE");
 }
 
 }  // namespace
@@ -156,11 +188,12 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   for (const std::string& warning : result.report.warnings) spdlog::warn("{}", warning);
 
   const Stopwatch write;
+  write_scaffold(job.scaffold_mesh, result);
   write_result(job.output, job, file, result.positions);
   seconds.write = write.seconds();
   seconds.total = total.seconds();
   Json report = report_json(job, file, gesture, result, *options.backend, seconds);
-  report["straight_chains"] = options.straight_chains.size();
+  report["straight_chains"] = result.straight_chains;
   write_json(job.json, report);
   spdlog::info("{}: {} passes ({}), {:.2f} s", job.mesh, result.report.passes, to_string(result.report.stop),
                seconds.total);

@@ -25,20 +25,30 @@ void add_finding_options(CLI::App& app, StraightFinding& finding, CLI::Option& s
       ->type_name("FRACTION");
 }
 
-std::vector<std::vector<int>> find_chains(const Mesh& mesh, const StraightFinding& finding) {
+namespace {
+
+StraightOptions as_options(const StraightFinding& finding) {
   StraightOptions options;
   if (finding.angle) options.feature_angle = *finding.angle * std::numbers::pi / 180;
   options.shortest = finding.shortest.value_or(options.shortest);
-  std::vector<std::vector<int>> chains = straight_chains(mesh.positions, mesh.triangles, options);
+  return options;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> find_chains(const Mesh& mesh, const StraightFinding& finding) {
+  std::vector<std::vector<int>> chains = straight_chains(mesh.positions, mesh.triangles, as_options(finding));
   spdlog::info("{} straight chains found", chains.size());
   return chains;
 }
 
-std::vector<std::vector<int>> chains_for(const std::string& straight, const StraightFinding& finding,
-                                         const Mesh& mesh) {
-  if (straight == "none") return {};
-  if (straight == "auto") return find_chains(mesh, finding);
-  return read_straight_chains(straight, static_cast<int>(mesh.positions.rows()));
+void set_chains(const std::string& straight, const StraightFinding& finding, const Mesh& mesh,
+                ReshapeOptions& options) {
+  if (straight == "auto") {
+    options.find_chains = as_options(finding);
+  } else if (straight != "none") {
+    options.straight_chains = read_straight_chains(straight, static_cast<int>(mesh.positions.rows()));
+  }
 }
 
 void check_finding(const std::string& straight, const StraightFinding& finding) {

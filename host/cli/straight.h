@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "swage/mesh.h"
+#include "swage/reshape.h"
 
 namespace swage::cli {
 
@@ -21,8 +22,8 @@ void add_finding_options(CLI::App& app, StraightFinding& finding, CLI::Option& s
 
 std::vector<std::vector<int>> find_chains(const Mesh& mesh, const StraightFinding& finding);
 
-/// Of `straight`: auto, none or a file. Throws UnreadableFile.
-std::vector<std::vector<int>> chains_for(const std::string& straight, const StraightFinding& finding, const Mesh& mesh);
+/// As the options take it of `straight`: auto, none or a file. Throws UnreadableFile.
+void set_chains(const std::string& straight, const StraightFinding& finding, const Mesh& mesh, ReshapeOptions& options);
 
 /// Throws WrongUsage where chains are not to be found and it is told how.
 void check_finding(const std::string& straight, const StraightFinding& finding);

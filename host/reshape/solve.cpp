@@ -192,6 +192,7 @@ ReshapeResult solve(ReshapePlan& changing, const std::vector<Hold>& holds, const
     finish(plan, iterate, solving, positions, result);
   }
   result.positions = mesh_positions(plan, positions);
+  result.straight_chains = static_cast<int>(plan.options.straight_chains.size());
   if (plan.scaffold.rows() > 0) result.scaffold = ReshapedScaffold{plan.box.back(positions), plan.scaffold};
   tell(plan, iterate, start.warm, positions, result.report);
   return result;
@@ -285,6 +286,9 @@ std::unique_ptr<ReshapePlan> plan_of(Mesh mesh, const ReshapeOptions& options) {
   ReshapeOptions own = given ? given->into(options) : options;
   if (!own.backend) own.backend = cpu_backend();
   const UnitBox box = unit_box(surface.mesh.positions);
+  if (own.find_chains && own.straight_chains.empty()) {
+    own.straight_chains = straight_chains(surface.mesh.positions, surface.mesh.triangles, *own.find_chains);
+  }
   Bonds bonds{straight_triples(own.straight_chains, surface.edges)};
   return std::unique_ptr<ReshapePlan>(new ReshapePlan{std::move(own), std::move(given), std::move(surface.mesh), counts,
                                                       box, std::move(surface.edges), std::move(bonds)});

@@ -17,7 +17,7 @@ bool needs_one(const ReshapePlan& plan, const Mesh& mesh, std::string& told) {
   const ReshapeOptions& options = plan.options;
   if (options.remesh == When::never) return false;
   if (options.remesh == When::always) return true;
-  if (options.unit_box_curvatures || !options.straight_chains.empty()) {
+  if (options.unit_box_curvatures || (!options.straight_chains.empty() && !options.find_chains)) {
     told = "as given: curvatures or straight chains are given for it";
     return false;
   }
@@ -104,6 +104,7 @@ ReshapeResult carried_back(const StandIn& stand_in, const Mesh& mesh, ReshapeRes
     }
   }
   back.finalised = result.finalised;
+  back.straight_chains = result.straight_chains;
   back.report = result.report;
   back.stand_in = std::make_shared<const ReshapeResult>(std::move(result));
   return back;

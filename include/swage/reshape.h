@@ -12,6 +12,7 @@
 
 #include "swage/backend.h"
 #include "swage/curvature.h"
+#include "swage/features.h"
 #include "swage/handles.h"
 #include "swage/mesh.h"
 #include "swage/report.h"
@@ -78,6 +79,7 @@ struct ReshapeOptions {
                                                         ///< beside a sharper edge stretch independently.
   std::optional<Curvatures> unit_box_curvatures;  ///< #T × 2, of the mesh scaled into the unit box; else computed.
   std::vector<std::vector<int>> straight_chains;  ///< Chains of vertices, joined by edges, that stay straight.
+  std::optional<StraightOptions> find_chains;     ///< Where none are given: those found on what is solved.
   int pass_limit = 100;                           ///< At least 1.
   double movement = 1e-3;                         ///< Steady: in mean edge lengths, above 0. The farthest that one more
                                                   ///< pass would move a vertex.
@@ -107,10 +109,11 @@ struct ReshapedScaffold {
 };
 
 struct ReshapeResult {
-  Positions positions;     ///< #V × 3, mesh units, the input's order.
-  Positions unfinished;    ///< The same before finalising.
-  Transforms transforms;   ///< #T × 9: rest edge → edited edge, of `unfinished` to the stop's tolerance.
-  bool finalised = false;  ///< Whether finalising changed anything.
+  Positions positions;      ///< #V × 3, mesh units, the input's order.
+  Positions unfinished;     ///< The same before finalising.
+  Transforms transforms;    ///< #T × 9: rest edge → edited edge, of `unfinished` to the stop's tolerance.
+  int straight_chains = 0;  ///< That were kept straight, on the stand-in where one was solved.
+  bool finalised = false;   ///< Whether finalising changed anything.
   std::optional<ReshapedScaffold> scaffold;       ///< Where there is one.
   std::shared_ptr<const ReshapeResult> stand_in;  ///< Of the remeshed stand-in, where one was solved.
   Report report;
