@@ -113,9 +113,9 @@ std::vector<Vertex> joined_vertices(const Surface& surface) {
 }
 
 Features features_of(Surface& surface, double angle, double tolerance) {
-  const Features features{surface.add_property_map<Edge, bool>("e:feature", false).first,
-                          surface.add_property_map<Vertex, bool>("v:kept", false).first,
-                          surface.add_property_map<Face, std::size_t>("f:patch", 0).first};
+  Features features{surface.add_property_map<Edge, bool>("e:feature", false).first,
+                    surface.add_property_map<Vertex, bool>("v:kept", false).first,
+                    surface.add_property_map<Face, std::size_t>("f:patch", 0).first};
   Map<Edge, bool> edges = features.edges;
   Map<Vertex, bool> kept = features.vertices;
   for (const Edge edge : surface.edges()) edges[edge] = !surface.is_border(edge) && turn(surface, edge) > angle;
