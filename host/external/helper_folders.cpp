@@ -9,16 +9,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// ../libexec/swage and others of its kind, as packagers like them.
+/// `swage` in libexec, then in others of its kind, as packagers like them.
 std::vector<fs::path> library_folders(const fs::path& prefix) {
   std::vector<fs::path> folders;
   std::error_code error;
   for (fs::directory_iterator entry(prefix, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().filename().string().starts_with("lib")) folders.push_back(entry->path() / "swage");
+    std::error_code ignored;
+    const std::string name = entry->path().filename();
+    if (name.starts_with("lib") && name != "libexec" && entry->is_directory(ignored)) {
+      folders.push_back(entry->path() / "swage");
+    }
   }
   std::sort(folders.begin(), folders.end());
-  const auto libexec = std::find(folders.begin(), folders.end(), prefix / "libexec" / "swage");
-  if (libexec != folders.end()) std::rotate(folders.begin(), libexec, libexec + 1);
+  folders.insert(folders.begin(), prefix / "libexec" / "swage");
   return folders;
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "distinct.h"
 #include "swage/error.h"
@@ -61,6 +63,20 @@ Task make_task(const Positions& positions, const Triangles& triangles, double en
   return task;
 }
 
+/// Takes them out of the complex, and returns which of the mesh's they are.
+std::vector<int> leave_out(Task& task, const std::vector<int>& crossing) {
+  std::vector<int> kept, left_out;
+  for (int t = 0; t < task.complex.triangles.rows(); ++t) {
+    if (std::binary_search(crossing.begin(), crossing.end(), t)) {
+      left_out.push_back(task.surface.originals[static_cast<size_t>(t)]);
+    } else {
+      kept.push_back(t);
+    }
+  }
+  task.complex.triangles = Triangles(task.complex.triangles(kept, Eigen::all));
+  return left_out;
+}
+
 [[noreturn]] void refuse_crossing(const Task& task, const std::vector<int>& crossing) {
   constexpr size_t kNamed = 10;
   std::string text = "scaffold: triangles ";
@@ -90,7 +106,7 @@ void check_indices(const Filling& filling) {
   if (tetrahedra.minCoeff() < 0 || tetrahedra.maxCoeff() >= filling.points.rows()) distrust("corners that are none");
 }
 
-/// The triangles' faces, those of tetrahedra struck out.
+/// That each triangle is a face of a tetrahedron.
 void check_faces(const Task& task, const Filling& filling) {
   std::vector<Face> faces;
   for (const auto& t : task.complex.triangles.rowwise()) faces.push_back(face(t[0], t[1], t[2]));
@@ -117,7 +133,8 @@ double volume(const Positions& positions, const Eigen::RowVector4i& t) {
 void check_volumes(const Task& task, const Filling& filling) {
   constexpr double kRounding = 1e-9;
   const Eigen::Index corners = task.complex.points.rows() - kBoxCorners;
-  const auto diagonal = task.complex.points.row(corners + kBoxCorners - 1) - task.complex.points.row(corners);
+  const Eigen::RowVector3d diagonal =
+      task.complex.points.row(corners + kBoxCorners - 1) - task.complex.points.row(corners);
   const double box = diagonal.prod();
   double sum = 0;
   for (const auto& t : filling.tetrahedra.rowwise()) {
@@ -168,12 +185,19 @@ Scaffold scaffold(const PositionsRef& positions, const TrianglesRef& triangles, 
   check_options(options);
   const Poll poll = sparing([&] { return !progress || progress({.stage = "scaffold"}); });
   try {
-    const Task task = make_task(positions, triangles, options.enlargement);
-    // An exact test for crossings of task.complex.triangles has its place here, and refuse_crossing its words.
-    const Filling filling = fill(task, options, poll);
+    Task task = make_task(positions, triangles, options.enlargement);
+    // An exact test for crossings of task.complex.triangles has its place here, before the first filling.
+    Filling filling = fill(task, options, poll);
+    std::vector<int> left_out;
+    if (options.leave_out_crossing && !filling.crossing.empty()) {
+      left_out = leave_out(task, filling.crossing);
+      filling = fill(task, options, poll);
+    }
     if (!filling.crossing.empty()) refuse_crossing(task, filling.crossing);
     check_filling(task, filling);
-    return assemble(positions, task, filling);
+    Scaffold result = assemble(positions, task, filling);
+    result.left_out = std::move(left_out);
+    return result;
   } catch (const Cancelled&) {
     return {};
   }

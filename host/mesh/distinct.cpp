@@ -25,8 +25,8 @@ std::vector<int> first_of_each(std::vector<Named> named) {
   std::sort(named.begin(), named.end());
   const auto alike = [](const Named& a, const Named& b) { return std::equal(a.begin(), a.begin() + 3, b.begin()); };
   named.erase(std::unique(named.begin(), named.end(), alike), named.end());
-  std::vector<int> firsts;
-  for (const Named& triangle : named) firsts.push_back(triangle[3]);
+  std::vector<int> firsts(named.size());
+  std::transform(named.begin(), named.end(), firsts.begin(), [](const Named& triangle) { return triangle[3]; });
   std::sort(firsts.begin(), firsts.end());
   return firsts;
 }

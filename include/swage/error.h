@@ -21,7 +21,8 @@ struct UnwritableFile : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A linear system has no solution in double precision. The message says what left it undetermined.
+/// What is asked for does not exist or was not found: a linear system's solution in double precision, tetrahedra around a
+/// surface that crosses itself. The message says why.
 struct Unsolvable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

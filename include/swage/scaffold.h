@@ -6,13 +6,14 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <vector>
 
 #include "swage/mesh.h"
 #include "swage/report.h"
 
 namespace swage {
 
-/// #T × 4 vertex indices from 0. From the fourth corner the other three are seen clockwise: (b - a) × (c - a) · (d - a)
+/// #T × 4 vertex indices from 0. Seen from the fourth corner the others run counter-clockwise: det(b - a, c - a, d - a)
 /// is positive.
 using Tetrahedra = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;
 using TetrahedraRef = Eigen::Ref<const Tetrahedra>;
@@ -22,12 +23,15 @@ struct ScaffoldOptions {
                              ///< the mesh is the same on all six sides.
   bool quality = false;      ///< Steiner points also for well-shaped tetrahedra, between the surfaces only. They keep
                              ///< components apart that else share edges.
-  double time_limit = 60;    ///< Seconds, above 0.
+  bool leave_out_crossing = false;  ///< Triangles that cross or overlap others are then no faces; their vertices stay
+                                    ///< corners. Else they are refused.
+  double time_limit = 60;           ///< Seconds of each of TetGen's runs, above 0. It runs twice to leave out.
 };
 
 struct Scaffold {
-  Positions positions;    ///< The mesh's #V, as given, then the box's 8 corners, then Steiner points; mesh units.
-  Tetrahedra tetrahedra;  ///< They fill the box, within closed components too.
+  Positions positions;        ///< The mesh's #V, as given, then the box's 8 corners, then Steiner points; mesh units.
+  Tetrahedra tetrahedra;      ///< They fill the box, within closed components too.
+  std::vector<int> left_out;  ///< Of the mesh's triangles those left out as crossing, ascending.
 };
 
 /// Constrained Delaunay tetrahedralisation of an axis-aligned box around the mesh, by TetGen (Si 2015). Each triangle
@@ -37,8 +41,8 @@ struct Scaffold {
 ///
 /// Throws InvalidInput where check(positions, triangles) does, no triangle has an area, or an option is out of its
 /// range; Unavailable where the build has no TetGen (SWAGE_TETGEN) or its program is not found; Unsolvable where
-/// triangles cross or overlap, with the first of them, or TetGen fails, takes too long or too much memory. Where
-/// `progress` cancels, the scaffold is empty.
+/// triangles cross or overlap and are not to be left out, with the first of them, or TetGen fails, takes too long or
+/// too much memory. Where `progress` cancels, the scaffold is empty.
 Scaffold scaffold(const PositionsRef& positions, const TrianglesRef& triangles, const ScaffoldOptions& options = {},
                   const ProgressFn& progress = {});
 

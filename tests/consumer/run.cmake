@@ -7,6 +7,12 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${place}/installed)
+file(GLOB helpers RELATIVE ${BUILD}/host/external/helpers ${BUILD}/host/external/helpers/swage-*)
+foreach(helper IN LISTS helpers)
+  if(NOT EXISTS ${place}/installed/libexec/swage/${helper})
+    message(FATAL_ERROR "${helper} is not installed")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${place}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${place}/installed)
 run(${CMAKE_COMMAND} --build ${place}/build)

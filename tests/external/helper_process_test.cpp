@@ -139,6 +139,9 @@ TEST(HelperProcess, IsFoundInTheFolderTheEnvironmentNames) {
   EXPECT_EQ(run_helper("echo", "here", {}), "here");
   EXPECT_EQ(helper_folders().front(), SWAGE_TEST_HELPERS);
   unsetenv("SWAGE_HELPERS");
+  const auto here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  EXPECT_EQ(helper_folders().at(0), here);
+  EXPECT_EQ(helper_folders().at(1), here.parent_path() / "libexec/swage");
   EXPECT_THROW(run_helper("echo", "here", {}), Unavailable);
 }
 

@@ -1,6 +1,6 @@
 #include "swage/scaffold.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,10 +10,10 @@
 #include <future>
 #include <limits>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "adjacency.h"
+#include "distinct.h"
 #include "places.h"
 #include "scaffold_edges.h"
 #include "shapes.h"
@@ -23,9 +23,6 @@
 
 namespace swage {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 class ScaffoldOf : public testing::Test {
  protected:
@@ -146,17 +143,6 @@ void expect_is_a_scaffold(const Scaffold& s, const Mesh& mesh, double enlargemen
   }
 }
 
-template <typename Error>
-std::string message_of(const Mesh& mesh, const ScaffoldOptions& options = {}) {
-  try {
-    scaffold(mesh.positions, mesh.triangles, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
-}
-
 TEST_F(ScaffoldOf, FillsABoxAndKeepsEveryTriangle) {
   for (const auto& [name, mesh] : shapes()) {
     SCOPED_TRACE(name);
@@ -246,81 +232,35 @@ TEST_F(ScaffoldOf, WhatIsTwiceOrFlatOrLooseIsLeftOut) {
   for (int v : s.tetrahedra.reshaped()) EXPECT_TRUE(v < box.positions.rows() || v >= count + 2) << v;
 }
 
-TEST_F(ScaffoldOf, CrossingTrianglesAreNamed) {
-  const Mesh sphere = test::sphere(1, 2);
-  const Mesh mesh = test::joined(sphere, test::transformed(sphere, 1, {1, 0.01, 0.02}));
-  EXPECT_THAT(message_of<Unsolvable>(mesh),
-              AllOf(HasSubstr("scaffold: triangles "), HasSubstr(" more cross or overlap others")));
-
-  Mesh pierced = test::box({1, 1, 1}, 1);  // Triangle 12 through one of the sides, vertices 8 to 10.
-  pierced.positions.conservativeResize(11, 3);
-  pierced.positions.bottomRows(3) << 0.3, 0.2, -0.5, 0.3, 0.2, 0.5, 0.35, 0.25, -0.5;
-  pierced.triangles.conservativeResize(13, 3);
-  pierced.triangles.row(12) << 8, 9, 10;
-  EXPECT_THAT(message_of<Unsolvable>(pierced), testing::ContainsRegex("triangles [0-9]+, 12 cross"));
-  expect_is_a_scaffold(scaffold(sphere.positions, sphere.triangles), sphere, 1.5);
+/// The distinct triangles but those left out.
+Mesh without(const Mesh& mesh, const std::vector<int>& left_out) {
+  std::vector<int> kept;
+  for (int t : distinct(mesh.positions, mesh.triangles).originals) {
+    if (!std::binary_search(left_out.begin(), left_out.end(), t)) kept.push_back(t);
+  }
+  return {mesh.positions, mesh.triangles(kept, Eigen::all)};
 }
 
-TEST_F(ScaffoldOf, AHeapOfCrossingTrianglesIsAMessage) {
-  Mesh heap{Positions(120, 3), Triangles(40, 3)};
-  for (int v = 0; v < 120; ++v) heap.positions.row(v) << std::sin(7.1 * v), std::sin(3.3 * v * v), std::cos(5.7 * v);
-  for (int t = 0; t < 40; ++t) heap.triangles.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
-  EXPECT_THAT(message_of<Unsolvable>(heap, {.time_limit = 20}), HasSubstr("scaffold: "));
-}
-
-TEST_F(ScaffoldOf, EndsAtTheTimeLimit) {
-  const Mesh mesh = test::sphere(1, 6);
-  EXPECT_THAT(message_of<Unsolvable>(mesh, {.time_limit = 0.05}), HasSubstr("swage-tetgen did not end within"));
-}
-
-TEST_F(ScaffoldOf, IsCancelled) {
-  const Mesh mesh = test::sphere(1, 6);
-  int asked = 0;
-  const Scaffold none = scaffold(mesh.positions, mesh.triangles, {}, [&](const Progress& progress) {
-    EXPECT_STREQ(progress.stage, "scaffold");
-    return ++asked < 2;
-  });
-  EXPECT_EQ(asked, 2);
-  EXPECT_EQ(none.positions.rows(), 0);
-  EXPECT_EQ(none.tetrahedra.rows(), 0);
-}
-
-TEST(Scaffold, RefusesBadInput) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  Mesh mesh = test::sheet(2);
-  EXPECT_THAT(message_of<InvalidInput>(mesh, {.enlargement = 1}), HasSubstr("enlargement"));
-  EXPECT_THAT(message_of<InvalidInput>(mesh, {.enlargement = nan}), HasSubstr("enlargement"));
-  EXPECT_THAT(message_of<InvalidInput>(mesh, {.time_limit = 0}), HasSubstr("time_limit"));
-  EXPECT_THAT(message_of<InvalidInput>({Positions::Zero(3, 3), Triangles{{0, 1, 2}}}), HasSubstr("none has an area"));
-  mesh.triangles(1, 2) = 9;
-  EXPECT_THAT(message_of<InvalidInput>(mesh), HasSubstr("triangle 1"));
-  mesh = test::sheet(2);
-  mesh.positions(4, 1) = nan;
-  EXPECT_THAT(message_of<InvalidInput>(mesh), HasSubstr("vertex 4"));
-}
-
-TEST(Scaffold, NamesTheOptionWhereTetGenIsLeftOut) {
-  if (has_tetgen()) GTEST_SKIP() << "built with TetGen";
-  EXPECT_THAT(message_of<Unavailable>(test::sheet(2)), HasSubstr("SWAGE_TETGEN"));
-}
-
-/// Of the corpus' components-apart models each that crosses itself nowhere gets one, each other a message.
+/// Of the corpus' models of several components each gets a scaffold or a message: all those that cross themselves
+/// nowhere get one, and most others where crossing triangles may be left out.
 TEST_F(ScaffoldOf, RealModelsOfManyComponents) {
   if (!test::has_shared()) GTEST_SKIP() << "no real meshes here";
-  int made = 0, refused = 0;
+  int made = 0, made_of_a_part = 0, refused = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::shared("data/meshes/C_multi_component"))) {
     if (entry.path().extension() == ".mtl" || entry.path().stem() == "soup") continue;  // 20 s to a message.
     SCOPED_TRACE(entry.path().filename());
     const Mesh mesh = read_mesh(entry.path()).mesh;
     try {
-      expect_all_triangles(scaffold(mesh.positions, mesh.triangles), mesh);
-      ++made;
+      const Scaffold s = scaffold(mesh.positions, mesh.triangles, {.leave_out_crossing = true});
+      expect_all_triangles(s, without(mesh, s.left_out));
+      ++(s.left_out.empty() ? made : made_of_a_part);
     } catch (const Unsolvable&) {
       ++refused;
     }
   }
   EXPECT_GE(made, 8);
-  EXPECT_EQ(made + refused, 34);
+  EXPECT_GE(made_of_a_part, 20);
+  EXPECT_EQ(made + made_of_a_part + refused, 34);
 }
 
 }  // namespace
