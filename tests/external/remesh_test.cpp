@@ -167,17 +167,25 @@ TEST_F(Remesh, ThinPlatesGetFinerEdgesAtTheirRims) {
   EXPECT_LE(mesh.triangles.rows(), 3 * 3000);
 }
 
-TEST_F(Remesh, AnInnerWallStaysJoined) {
+/// A box cut in two by a sheet.
+Mesh box_with_wall(double height) {
   const Mesh sheet = test::sheet(2);
   Positions wall(sheet.positions.rows(), 3);
-  wall << Eigen::VectorXd::Constant(wall.rows(), 0.5), sheet.positions.leftCols(2);
-  const Mesh box = test::joined(test::box({1, 1, 1}, 2), {wall, sheet.triangles});
-  ASSERT_NEAR(length_of_edges(welded(box.positions, box.triangles), 3), 4, 1e-12);
-  const Mesh mesh = remesh(box, kCoarse);
-  EXPECT_NEAR(length_of_edges(mesh, 3), 4, 1e-9);
-  EXPECT_EQ(length_of_edges(mesh, 1), 0);
-  EXPECT_NEAR(area(mesh), 7, 1e-9);
-  expect_well_shaped(mesh);
+  wall << Eigen::VectorXd::Constant(wall.rows(), 0.5), sheet.positions.col(0), height * sheet.positions.col(1);
+  return test::joined(test::box({1, 1, height}, 2), {wall, sheet.triangles});
+}
+
+TEST_F(Remesh, AnInnerWallStaysJoined) {
+  // Of the lower box the rims, and with them the wall, get finer edges than the rest.
+  for (const double height : {1.0, 0.05}) {
+    const Mesh box = box_with_wall(height);
+    ASSERT_NEAR(length_of_edges(welded(box.positions, box.triangles), 3), 2 + 2 * height, 1e-12);
+    const Mesh mesh = remesh(box, kCoarse);
+    EXPECT_NEAR(length_of_edges(mesh, 3), 2 + 2 * height, 1e-9);
+    EXPECT_EQ(length_of_edges(mesh, 1), 0);
+    EXPECT_NEAR(area(mesh), area(box), 1e-9);
+    expect_well_shaped(mesh);
+  }
 }
 
 TEST_F(Remesh, AnOpenSheetKeepsItsOutline) {

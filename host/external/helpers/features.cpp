@@ -26,7 +26,7 @@ class Lines {
   Lines(const Surface& surface, const Features& features) : kept_(features.vertices) {
     neighbours_.resize(surface.number_of_vertices());
     for (const Edge edge : surface.edges()) {
-      if (!features.edges[edge]) continue;
+      if (!features.edges[edge] && !surface.is_border(edge)) continue;
       const Vertex a = surface.vertex(edge, 0), b = surface.vertex(edge, 1);
       neighbours_[a].push_back(b);
       neighbours_[b].push_back(a);
@@ -102,29 +102,24 @@ void keep_bends(const Surface& surface, const Line& line, double tolerance, Map<
 
 }  // namespace
 
-std::vector<Vertex> seam_vertices(const Surface& surface) {
-  std::map<std::pair<Point, Point>, std::vector<Edge>> at_place;
-  for (const Edge edge : surface.edges()) {
-    if (!surface.is_border(edge)) continue;
-    const Point &a = surface.point(surface.vertex(edge, 0)), &b = surface.point(surface.vertex(edge, 1));
-    at_place[std::minmax(a, b)].push_back(edge);
+std::vector<Vertex> joined_vertices(const Surface& surface) {
+  std::map<Point, std::vector<Vertex>> at_place;
+  for (const Vertex vertex : surface.vertices()) at_place[surface.point(vertex)].push_back(vertex);
+  std::vector<Vertex> joined;
+  for (const auto& [place, vertices] : at_place) {
+    if (vertices.size() > 1) joined.insert(joined.end(), vertices.begin(), vertices.end());
   }
-  std::vector<Vertex> vertices;
-  for (const auto& [ends, edges] : at_place) {
-    if (edges.size() < 2) continue;
-    for (const Edge edge : edges) vertices.insert(vertices.end(), {surface.vertex(edge, 0), surface.vertex(edge, 1)});
-  }
-  return vertices;
+  return joined;
 }
 
 Features features_of(Surface& surface, double angle, double tolerance) {
-  const Features features{surface.add_property_map<Edge, bool>("e:feature", false).first,
-                          surface.add_property_map<Vertex, bool>("v:kept", false).first,
-                          surface.add_property_map<Face, std::size_t>("f:patch", 0).first};
+  Features features{surface.add_property_map<Edge, bool>("e:feature", false).first,
+                    surface.add_property_map<Vertex, bool>("v:kept", false).first,
+                    surface.add_property_map<Face, std::size_t>("f:patch", 0).first};
   Map<Edge, bool> edges = features.edges;
   Map<Vertex, bool> kept = features.vertices;
-  for (const Edge edge : surface.edges()) edges[edge] = surface.is_border(edge) || turn(surface, edge) > angle;
-  for (const Vertex vertex : seam_vertices(surface)) kept[vertex] = true;
+  for (const Edge edge : surface.edges()) edges[edge] = !surface.is_border(edge) && turn(surface, edge) > angle;
+  for (const Vertex vertex : joined_vertices(surface)) kept[vertex] = true;
   Lines lines(surface, features);
   for (const Vertex vertex : surface.vertices()) kept[vertex] = kept[vertex] || lines.is_end(vertex);
   for (const Line& line : lines.all(surface)) keep_bends(surface, line, tolerance, kept);

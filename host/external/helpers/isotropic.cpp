@@ -2,11 +2,14 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "surface.h"
@@ -54,12 +57,12 @@ class Remesher {
       : surface_(surface), features_(features), sizes_(sizes), original_(surface, features) {}
 
   void run() {
-    isotropic(all_faces(), sizes_.edge_length, sizes_.iterations);
+    remesh(all_faces(), sizes_.edge_length);
     for (int level = 1; level <= kLevels; ++level) {
       const double length = std::ldexp(sizes_.edge_length, -level);
       const std::vector<Face> faces = around(unfit(2 * length), length);
       if (faces.empty()) return;
-      isotropic(faces, length, sizes_.iterations);
+      remesh(faces, length);
       constexpr int kBlending = 3;
       isotropic(all_faces(), 0, kBlending);
     }
@@ -67,6 +70,55 @@ class Remesher {
 
  private:
   std::vector<Face> all_faces() const { return {surface_.faces().begin(), surface_.faces().end()}; }
+
+  void remesh(std::vector<Face> faces, double length) {
+    split_copies(faces, 4.0 / 3 * length);  // No longer than the isotropic remesher lets edges be.
+    Map<Vertex, bool> kept = features_.vertices;
+    for (const Vertex vertex : joined_vertices(surface_)) kept[vertex] = true;
+    isotropic(faces, length, sizes_.iterations);
+  }
+
+  /// Where the surface was cut beside one of the faces all copies of the edge are split, and so alike. Adds faces made.
+  void split_copies(std::vector<Face>& faces, double longest) {
+    for (const HalfEdge side : copied_sides(faces)) split(side, longest, faces);
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  }
+
+  std::vector<HalfEdge> copied_sides(const std::vector<Face>& faces) const {
+    std::map<std::pair<Point, Point>, std::vector<HalfEdge>> copies;
+    for (const Edge edge : surface_.edges()) {
+      if (!surface_.is_border(edge)) continue;
+      const HalfEdge side = surface_.halfedge(edge);
+      const Point &a = surface_.point(surface_.source(side)), &b = surface_.point(surface_.target(side));
+      copies[std::minmax(a, b)].push_back(surface_.is_border(side) ? surface_.opposite(side) : side);
+    }
+    std::vector<bool> taken(surface_.num_faces(), false);
+    for (const Face face : faces) taken[face] = true;
+    std::vector<HalfEdge> copied;
+    for (const auto& [ends, sides] : copies) {
+      const bool beside = std::any_of(sides.begin(), sides.end(), [&](HalfEdge s) { return taken[surface_.face(s)]; });
+      if (sides.size() > 1 && beside) copied.insert(copied.end(), sides.begin(), sides.end());
+    }
+    return copied;
+  }
+
+  void split(HalfEdge side, double longest, std::vector<Face>& made) {
+    const Point &a = surface_.point(surface_.source(side)), &b = surface_.point(surface_.target(side));
+    if (CGAL::squared_distance(a, b) <= longest * longest) return;
+    const Point middle = CGAL::midpoint(a, b);
+    Map<Face, std::size_t> patches = features_.patches;
+    const std::size_t patch = patches[surface_.face(side)];
+    const HalfEdge half = CGAL::Euler::split_edge(side, surface_);
+    surface_.point(surface_.target(half)) = middle;
+    const HalfEdge across = CGAL::Euler::split_face(half, surface_.next(side), surface_);
+    for (const HalfEdge inner : {across, surface_.opposite(across)}) {
+      patches[surface_.face(inner)] = patch;
+      made.push_back(surface_.face(inner));
+    }
+    split(half, longest, made);
+    split(side, longest, made);
+  }
 
   /// Of length 0: flips and moves vertices only.
   void isotropic(const std::vector<Face>& faces, double length, int iterations) {
@@ -147,7 +199,6 @@ class Remesher {
         }
       }
     }
-    std::sort(faces.begin(), faces.end());
     return faces;
   }
 

@@ -39,18 +39,18 @@ void drop_slivers(Surface& surface, double height);
 
 /// What has to keep its place.
 struct Features {
-  Map<Edge, bool> edges;           ///< Creases and boundaries.
+  Map<Edge, bool> edges;           ///< Creases only: CGAL keeps boundaries anyway, and where named would split those of
+                                   ///< faces that it is to leave alone.
   Map<Vertex, bool> vertices;      ///< Where these end, meet or bend.
   Map<Face, std::size_t> patches;  ///< The surface's parts between them.
 };
 
 /// Creases turn by more than `angle`, radians. Between two neighbouring `vertices` of a feature line it strays from the
-/// straight by at most `tolerance`. Where boundaries lie on each other, all of their vertices are kept, so that copies
-/// stay alike.
+/// straight by at most `tolerance`. All `joined_vertices` are kept, so that copies stay alike.
 Features features_of(Surface& surface, double angle, double tolerance);
 
-/// Vertices of boundary edges that lie on another boundary edge.
-std::vector<Vertex> seam_vertices(const Surface& surface);
+/// Vertices at a place with others: copies where the surface was cut.
+std::vector<Vertex> joined_vertices(const Surface& surface);
 
 struct Sizes {
   double edge_length;

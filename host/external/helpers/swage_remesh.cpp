@@ -10,8 +10,8 @@
 namespace swage {
 namespace {
 
-// In edge lengths: triangles less high are dropped at first; what feature lines may stray.
-constexpr double kSliver = 0.05, kStraying = 0.03;
+// In edge lengths: triangles less high are dropped at first, and at last; what feature lines may stray.
+constexpr double kSliver = 0.05, kFlat = 1e-6, kStraying = 0.03;
 
 Soup read_soup(wire::Reader& reader) {
   const auto coordinates = reader.read<double>(3);
@@ -54,6 +54,7 @@ std::string remeshed(std::string_view message) {
   drop_slivers(surface, kSliver * edge_length);
   const Features features = features_of(surface, reals[1], kStraying * edge_length);
   remesh_between(surface, features, {edge_length, ints[0], static_cast<std::size_t>(ints[2])});
+  drop_slivers(surface, kFlat * edge_length);
   return written(surface);
 }
 
