@@ -8,6 +8,7 @@
 #include "options.h"
 #include "progress_bar.h"
 #include "report_json.h"
+#include "shape_quality.h"
 #include "straight.h"
 #include "swage/diagnose.h"
 #include "swage/error.h"
@@ -22,18 +23,39 @@ struct Verdict {
   std::string words;
 };
 
-std::string needs(const Diagnosis& found) {
-  std::string words = "reshape solves it directly";
-  const int pieces = found.components + found.isolated_vertices.count;
-  if (pieces > 1) words += fmt::format(", where each of its {} connected parts has a handle", pieces);
-  return words;
+std::string list(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+  return text;
+}
+
+/// What reshape does with such a mesh, in its order.
+std::string plan_in_words(const Mesh& mesh, const Diagnosis& found) {
+  std::vector<std::string> parts;
+  const auto say = [&](int count, const char* what) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
+  };
+  say(found.duplicate_vertices.count, "vertices at others' places move with them");
+  say(found.duplicate_triangles.count, "repeated triangles are left out of the solve");
+  say(found.inconsistent_edges.count,
+      "edges between triangles that wind against each other: these are turned for the solve");
+  say(found.degenerate_triangles.count, "triangles without area go with their neighbours");
+  say(found.isolated_vertices.count, "vertices without a triangle go with the nearest surface");
+  say(found.welded_components > 1 ? found.welded_components : 0,
+      "components are held together where they touch or cross, else joined by a scaffold, or by links");
+  const bool is_bad = badly_shaped(shape_quality(mesh.positions, mesh.triangles));
+  parts.insert(parts.begin(), is_bad
+                                  ? "reshape solves a remeshed stand-in and carries the edit back, since its triangles "
+                                    "are needles, uneven or coarse (--remesh never: directly)"
+                                  : "reshape solves it directly");
+  return list(parts);
 }
 
 /// Asks reshape itself: making one checks the mesh and does no more.
 Verdict ask_reshape(const Mesh& mesh, const Diagnosis& found) {
   try {
     const Reshape checked(mesh.positions, mesh.triangles);
-    return {true, needs(found)};
+    return {true, plan_in_words(mesh, found)};
   } catch (const InvalidInput& e) {
     return {false, std::string("reshape refuses it: ") + e.what()};
   }
