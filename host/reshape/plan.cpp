@@ -95,8 +95,10 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   TransformStep::Rest rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
   const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
   plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
+  const std::string mesh = plan.paths.mesh;
   plan.paths =
       choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.bonds.straight.empty());
+  plan.paths.mesh = mesh;
   plan.bonds.straightness_weight = plan.weights.straightness;
   begin("components", 0.15);
   join_components(plan, unit_mesh, rest, poll);

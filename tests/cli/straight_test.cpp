@@ -24,7 +24,8 @@ class Straight : public testing::Test {
     return run(arguments);
   }
   Outcome reshape(const Arguments& more) const {
-    return run_with({"reshape", box_.string(), "--pin", "z<=0", "--move", "z>=2&x<=0=0,0,0.5", "--remesh", "never"}, more);
+    return run_with({"reshape", box_.string(), "--pin", "z<=0", "--move", "z>=2&x<=0=0,0,0.5", "--remesh", "never"},
+                    more);
   }
   Outcome info(const Arguments& more) const { return run_with({"info", box_.string()}, more); }
 

@@ -41,8 +41,16 @@ TEST_P(SteadyGesture, IsAsGoodAsThePublishedResult) {
 
   EXPECT_EQ(steady.report.stop, Termination::moved_little);
   const bool phone = is("phone", "def_v1"), lifted = is("cylinder_1kF", "def_v1");
-  EXPECT_LT(test::mean_normal_change(rest, steady.positions),
-            test::mean_normal_change(rest, published) + (phone ? 0.25 : 0.1));
+  if (phone) {  // The only one that is finalised. Published, that takes the handles to 2.65 % from 1.05 %.
+    const Positions unfinished =
+        unit_box(rest.positions).back(test::authors_result("phone", "def_v1", ".unfinished.obj"));
+    const double before = test::mean_normal_change(rest, unfinished);
+    EXPECT_LT(test::mean_normal_change(rest, steady.unfinished), before + 0.25);
+    EXPECT_LT(test::mean_normal_change(rest, steady.positions), before + 0.3);
+    EXPECT_LE(test::handle_error(rest, authors_.gesture, steady.positions), 0.01);
+  } else {
+    EXPECT_LT(test::mean_normal_change(rest, steady.positions), test::mean_normal_change(rest, published) + 0.1);
+  }
   EXPECT_LE(test::mean_stretch(rest, steady.positions), test::mean_stretch(rest, published));
   EXPECT_LT(test::handle_error(rest, authors_.gesture, steady.positions),
             std::max(2 * test::handle_error(rest, authors_.gesture, published), 0.005));
