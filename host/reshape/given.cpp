@@ -90,6 +90,17 @@ std::vector<Hold> Given::into(const std::vector<Hold>& holds) const {
     }
     result.push_back(hold);
   }
+  return result.empty() ? at_feet(holds) : result;
+}
+
+std::vector<Hold> Given::at_feet(const std::vector<Hold>& holds) const {
+  std::vector<Hold> result;
+  for (const Hold& hold : holds) {
+    const auto loose =
+        std::find_if(loose_.begin(), loose_.end(), [&](const Loose& l) { return l.vertex == hold.vertex(); });
+    if (loose == loose_.end()) continue;
+    result.push_back({loose->corners, loose->barycentric, hold.target - loose->offset, hold.share});
+  }
   return result;
 }
 

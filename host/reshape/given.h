@@ -23,7 +23,7 @@ class Given {
   const Mesh& mesh() const { return mesh_; }
 
   ReshapeOptions into(ReshapeOptions options) const;
-  /// Without those of vertices that no triangle has.
+  /// Without those of vertices that no triangle has; where all are, of the surface nearest to these.
   std::vector<Hold> into(const std::vector<Hold>& holds) const;
   /// What a solve reads of its start.
   ReshapeResult into(const ReshapeResult& start) const;
@@ -41,6 +41,7 @@ class Given {
     Eigen::RowVector3d offset;    ///< From there.
   };
 
+  std::vector<Hold> at_feet(const std::vector<Hold>& holds) const;
   Positions back(const Positions& positions, const Transforms& transforms) const;
   ReshapedScaffold back(const ReshapedScaffold& solved, const Positions& positions) const;
   /// Vertices at one place are there to a tolerance only.

@@ -3,7 +3,6 @@
 #include "coarse.h"
 #include "plan.h"
 #include "stand_in.h"
-#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -261,11 +260,6 @@ ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const Re
 ReshapeResult solve_holds(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* start,
                           const ProgressFn& progress) {
   const std::vector<Hold> solved = plan.given ? plan.given->into(holds) : holds;
-  if (solved.empty()) {
-    throw InvalidInput(
-        "Reshape::solve: gesture: no handle is on the surface, only on vertices that no triangle has; "
-        "pin or move others");
-  }
   return in_given_numbers(plan, [&] {
     if (!prepare(plan, progress)) return cancelled(plan, start);
     if (plan.stand_in) return solve_stand_in(plan, holds, start, progress);

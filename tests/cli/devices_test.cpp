@@ -120,10 +120,12 @@ TEST_F(OnDevices, AWrongNameIsToldWhatThereIs) {
   EXPECT_THAT(outcome.err, HasSubstr(first_.name));
 }
 
-/// What a run says whose mesh is large, and open: it ends before anything is solved.
+/// What a run says whose mesh is large, and all on a line: it ends before anything is solved.
 std::string words_of_large_run(const TempFolder& folder, const std::vector<std::string>& environment) {
   const std::filesystem::path path = folder / "large.ply";
-  write_mesh(path, sheet(230));
+  Mesh line = sheet(230);
+  line.positions.rightCols<2>().setZero();
+  write_mesh(path, line);
   const Outcome outcome = run({"reshape", path.string(), "--pin", "0", "-v", "--json", "-"}, environment);
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   return outcome.err;

@@ -108,7 +108,11 @@ TEST_P(SteadyRefined, OneSubdivisionChangesLittleTwoLittleMore) {
   const test::AuthorsGesture once = refined(authors_);
   expect_little(test::deviation(coarse, solved(once).positions));
   if (authors_.mesh.triangles.rows() > 5'000) return;  // Minutes.
-  const test::Deviation by_two = test::deviation(coarse, solved(refined(once)).positions);
+  // What finalising does to the phone at 60,000 triangles is up to 2 % of D from what it does at 3,800: its passes are
+  // compared.
+  authors_.options.finalise = !is("phone", "def_v1");
+  const test::AuthorsGesture twice = refined(refined(authors_));
+  const test::Deviation by_two = test::deviation(solved(authors_).positions, solved(twice).positions);
   EXPECT_LT(by_two.mean, 0.01);
   EXPECT_LT(by_two.largest, 0.03);
 }
