@@ -156,8 +156,10 @@ struct Iterate {
 /// Of a whole call's progress, what preparation is.
 constexpr double kPrepared = 0.2;
 
-// solve.cpp
+// plan_of.cpp
 std::unique_ptr<ReshapePlan> plan_of(Mesh mesh, const ReshapeOptions& options);
+
+// solve.cpp
 /// Of points of the mesh as given. Fills `result.report`.
 ReshapeResult solve_holds(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* start,
                           const ProgressFn& progress);
