@@ -12,25 +12,39 @@ constexpr int kRings = 4;
 constexpr double kDimple = std::numbers::pi * 10 / 180;  // Turn of a normal beside a handle, radians.
 constexpr double kHandleWeight = 100;
 
-/// The rings of triangles around a vertex: each ring's share a vertex with the ring before.
-std::vector<std::vector<int>> rings_around(int vertex, const Triangles& triangles, const Lists& around) {
-  std::vector<std::vector<int>> rings;
-  std::vector<char> seen(static_cast<size_t>(triangles.rows()), 0);
-  std::vector<int> vertices{vertex};
-  for (int ring = 0; ring < kRings; ++ring) {
-    std::vector<int> triangles_of_ring, next;
-    for (const int v : vertices) {
-      for (const int t : around[v]) {
-        if (std::exchange(seen[static_cast<size_t>(t)], 1)) continue;
-        triangles_of_ring.push_back(t);
-        for (int k = 0; k < 3; ++k) next.push_back(triangles(t, k));
+/// The rings of triangles around vertices: each ring's share a vertex with the ring before.
+class Rings {
+ public:
+  explicit Rings(const TransformStep::Rest& rest)
+      : triangles_(rest.triangles),
+        around_(triangles_of_vertices(rest.triangles, static_cast<int>(rest.vertices.rows()))),
+        met_for_(static_cast<size_t>(rest.triangles.rows()), -1) {}
+
+  std::vector<std::vector<int>> of(int vertex) {
+    std::vector<std::vector<int>> rings;
+    std::vector<int> vertices{vertex};
+    ++asked_;
+    for (int ring = 0; ring < kRings; ++ring) {
+      std::vector<int> triangles, next;
+      for (const int v : vertices) {
+        for (const int t : around_[v]) {
+          if (std::exchange(met_for_[static_cast<size_t>(t)], asked_) == asked_) continue;
+          triangles.push_back(t);
+          for (int k = 0; k < 3; ++k) next.push_back(triangles_(t, k));
+        }
       }
+      rings.push_back(std::move(triangles));
+      vertices = std::move(next);
     }
-    rings.push_back(std::move(triangles_of_ring));
-    vertices = std::move(next);
+    return rings;
   }
-  return rings;
-}
+
+ private:
+  const Triangles& triangles_;
+  Lists around_;
+  std::vector<int> met_for_;  // Of each triangle the last question that met it.
+  int asked_ = -1;
+};
 
 /// Of triangles that have a normal: of others it says nothing.
 double largest_turn(const std::vector<int>& triangles, const Positions& rest_normals, const Positions& normals) {
@@ -49,10 +63,10 @@ bool is_dimple(const std::vector<std::vector<int>>& rings, const Positions& rest
 
 /// For each triangle the ring, from 1, of the nearest of the handles; 0 outside all rings of such.
 std::vector<int> zone_of(const std::vector<Hold>& handles, const TransformStep::Rest& rest) {
-  const Lists around = triangles_of_vertices(rest.triangles, static_cast<int>(rest.vertices.rows()));
+  Rings rings_of(rest);
   std::vector<int> zone(static_cast<size_t>(rest.triangles.rows()), 0);
   for (const Hold& handle : handles) {
-    const std::vector<std::vector<int>> rings = rings_around(handle.vertex(), rest.triangles, around);
+    const std::vector<std::vector<int>> rings = rings_of.of(handle.vertex());
     for (int ring = 1; ring <= kRings; ++ring) {
       for (const int t : rings[static_cast<size_t>(ring - 1)]) {
         int& nearest = zone[static_cast<size_t>(t)];
@@ -132,11 +146,10 @@ void fit_edges(const Backend& backend, std::shared_ptr<const TransformStep::Rest
 
 std::vector<Hold> dimples(const Holds& handles, const TransformStep::Rest& rest, const Positions& positions) {
   const Positions normals = unit_normals(positions, rest.triangles);
-  const Lists around = triangles_of_vertices(rest.triangles, static_cast<int>(rest.vertices.rows()));
+  Rings rings(rest);
   std::vector<Hold> found;
   for (const Hold& handle : handles.points) {
-    if (is_dimple(rings_around(handle.vertex(), rest.triangles, around), rest.normals, normals))
-      found.push_back(handle);
+    if (is_dimple(rings.of(handle.vertex()), rest.normals, normals)) found.push_back(handle);
   }
   return found;
 }

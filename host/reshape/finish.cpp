@@ -1,9 +1,13 @@
 // Finalising: handles that miss are held harder, and those in dimples by patches instead of points.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <string>
+#include <unordered_set>
 
 #include "plan.h"
 
@@ -14,8 +18,9 @@ constexpr double kMiss = 0.005;        // Of the box's diagonal: handles that mi
 constexpr double kMissOfPatch = 0.01;  // The same of patches, which let their middle go a little.
 constexpr double kHardest = 100;       // Times as hard.
 constexpr double kPatch = 0.025;       // Radius of a patch, of the unit box.
-constexpr double kShareOfPatch = 0.9;  // Of a handle's weight, to start with.
-constexpr int kRounds = 4;             // In which patches are held harder, until they miss by less.
+constexpr double kShareOfPatch = 0.9;  // Of a handle's weight.
+constexpr double kHardening = 1.4;     // Handles miss by about the 0.7th power of how hard they are held.
+constexpr int kRounds = 4;             // In which all is held harder, until handles miss by less.
 
 /// What can be said for positions.
 struct Merit {
@@ -27,10 +32,11 @@ struct Merit {
 /// Vertices within the radius of a patch of the handle's and joined to it, or beside it.
 std::vector<int> patch_around(int vertex, const Positions& rest, const Lists& ring) {
   std::vector<int> patch{vertex};
+  std::unordered_set<int> met{vertex};
   for (size_t next = 0; next < patch.size(); ++next) {
     for (const int v : ring[patch[next]]) {
       const bool is_near = next == 0 || (rest.row(v) - rest.row(vertex)).norm() <= kPatch;
-      if (is_near && std::find(patch.begin(), patch.end(), v) == patch.end()) patch.push_back(v);
+      if (is_near && met.insert(v).second) patch.push_back(v);
     }
   }
   return patch;
@@ -59,16 +65,19 @@ class Patches {
         dimpled_(dimpled),
         transforms_(transforms) {}
 
-  Holds holds(const Holds& handles, double share) const {
-    Holds result = handles;
+  Holds holds(const Holds& handles, double hardness) const {
+    std::set<std::array<int, 3>> replaced;
+    for (const Hold& hold : dimpled_) replaced.insert(hold.vertices);
+    Holds result{{}, hardness * handles.weight};
+    std::copy_if(handles.points.begin(), handles.points.end(), std::back_inserter(result.points),
+                 [&](const Hold& hold) { return replaced.count(hold.vertices) == 0; });
     for (const Hold& hold : dimpled_) {
-      std::erase_if(result.points, [&](const Hold& own) { return own.vertices == hold.vertices; });
       const std::vector<int> patch = patch_around(hold.vertex(), rest_, ring_);
       const Eigen::Matrix3d transform = mean_transform(patch, around_, transforms_);
       for (const int v : patch) {
         const Eigen::Vector3d offset = transform * (rest_.row(v) - hold.point(rest_)).transpose();
         result.points.push_back(
-            Hold::at(v, hold.target + offset.transpose(), share / static_cast<double>(patch.size())));
+            Hold::at(v, hold.target + offset.transpose(), kShareOfPatch / static_cast<double>(patch.size())));
       }
     }
     return result;
@@ -95,45 +104,54 @@ class Finisher {
   void hold_harder(Positions& positions) {
     const Merit before = merit(positions, {});
     if (before.miss <= kMiss * diagonal_) return;
-    iterate_.handles = handles_;
-    iterate_.handles.weight *= std::clamp(2 * before.miss / (kMiss * diagonal_), 2.0, kHardest);
+    Holds harder = handles_;
+    harder.weight *= std::clamp(2 * before.miss / (kMiss * diagonal_), 2.0, kHardest);
     Positions again = positions;
-    if (!go_on_(again)) throw Cancelled();
+    const Transforms transforms = iterate_.transforms;
+    go_on(harder, again);
     const Merit after = merit(again, {});
     constexpr double kTurn = 1.5, kSmallTurn = 0.01;  // Radians.
     const bool better = after.miss < 0.8 * before.miss && after.mean_turn < kTurn * before.mean_turn + kSmallTurn;
     tell("held harder", before, after, better);
-    if (better) positions = std::move(again);
+    better ? void(positions = std::move(again)) : void(iterate_.transforms = transforms);
   }
 
-  void hold_patches(Positions& positions) {
+  /// Whether there were dimples.
+  bool hold_patches(Positions& positions) {
     const std::vector<Hold> dimpled = dimples(handles_, *plan_.rest, positions);
-    if (dimpled.empty()) return;
+    if (dimpled.empty()) return false;
     const Transforms transforms = iterate_.transforms;
     const Patches patches(plan_, dimpled, transforms);
     const Merit before = merit(positions, dimpled);
     Positions again = positions;
-    double share = kShareOfPatch;
+    double hardness = 1;
     for (int round = 0; round < kRounds; ++round) {
-      iterate_.handles = patches.holds(handles_, share);
-      if (!go_on_(again)) throw Cancelled();
+      go_on(patches.holds(handles_, hardness), again);
       const double missed = largest_miss(handles_, again) / diagonal_;
       if (missed <= kMissOfPatch) break;
-      share *= 1.1 * missed / kMissOfPatch;
+      hardness = std::min(1.02 * hardness * std::pow(missed / kMissOfPatch, kHardening), kHardest);
     }
     const Merit after = merit(again, dimpled);
     const bool better =
         after.miss <= std::max(before.miss, kMissOfPatch * diagonal_) && after.beside_turn < before.beside_turn;
     tell(std::to_string(dimpled.size()) + " dimples held by patches", before, after, better);
-    if (better) positions = std::move(again);
+    better ? void(positions = std::move(again)) : void(iterate_.transforms = transforms);
+    return true;
   }
 
   const std::string& told() const { return told_; }
 
  private:
+  void go_on(Holds holds, Positions& positions) {
+    iterate_.handles = std::move(holds);
+    if (!go_on_(positions)) throw Cancelled();
+  }
+
   Merit merit(const Positions& positions, const std::vector<Hold>& beside) const {
     const Positions normals = unit_normals(positions, plan_.rest->triangles);
     const Positions areas = area_vectors(plan_.rest->vertices, plan_.rest->triangles);
+    std::vector<char> is_beside(static_cast<size_t>(plan_.rest->vertices.rows()), 0);
+    for (const Hold& hold : beside) is_beside[static_cast<size_t>(hold.vertex())] = 1;
     Merit result{largest_miss(handles_, positions), 0, 0};
     double sum = 0;
     for (Eigen::Index t = 0; t < normals.rows(); ++t) {
@@ -143,8 +161,9 @@ class Finisher {
       const double area = areas.row(t).norm();
       result.mean_turn += area * turn;
       sum += area;
-      const auto has = [&](const Hold& hold) { return (plan_.rest->triangles.row(t).array() == hold.vertex()).any(); };
-      if (std::any_of(beside.begin(), beside.end(), has)) result.beside_turn = std::max(result.beside_turn, turn);
+      for (const int v : Eigen::RowVector3i(plan_.rest->triangles.row(t))) {
+        if (is_beside[static_cast<size_t>(v)] != 0) result.beside_turn = std::max(result.beside_turn, turn);
+      }
     }
     result.mean_turn /= sum;
     return result;
@@ -175,8 +194,10 @@ std::optional<Positions> finished(const ReshapePlan& plan, Iterate& iterate, con
   if (plan.options.solver == ReshapeSolver::published) return let_go(plan, iterate, positions, poll);
   Finisher finisher(plan, iterate, go_on);
   Positions better = positions;
-  finisher.hold_harder(better);
-  finisher.hold_patches(better);
+  if (!finisher.hold_patches(better)) {
+    finisher.hold_harder(better);
+    finisher.hold_patches(better);  // Held harder, handles may come to sit in some.
+  }
   told = finisher.told();
   if (better == positions) return std::nullopt;
   return better;
