@@ -15,57 +15,15 @@
 namespace swage::cli {
 namespace {
 
-#ifdef _OPENMP
-constexpr const char* kOpenMp = "ON";
-#else
-constexpr const char* kOpenMp = "OFF";
-#endif
-#ifdef SWAGE_OPENCL
-constexpr const char* kOpenCl = "ON";
-#else
-constexpr const char* kOpenCl = "OFF";
-#endif
-#ifdef SWAGE_TETGEN
-constexpr const char* kTetgen = "ON";
-#else
-constexpr const char* kTetgen = "OFF";
-#endif
-#ifdef SWAGE_CGAL
-constexpr const char* kCgal = "ON";
-#else
-constexpr const char* kCgal = "OFF";
-#endif
-#ifdef SWAGE_EMBREE
-constexpr const char* kEmbree = "ON";
-#else
-constexpr const char* kEmbree = "OFF";
-#endif
-#ifdef SWAGE_CHOLMOD
-constexpr const char* kCholmod = "ON";
-// Apache-2.0 goes with version 3 of the GPL only.
-constexpr const char* kLicence =
-    "GPL-3.0-or-later, as CHOLMOD's supernodal factor (GPL-2.0-or-later) and METIS (Apache-2.0) are in; without them "
-    "MIT";
-#else
-constexpr const char* kCholmod = "OFF";
-constexpr const char* kLicence = "MIT";
-#endif
-
-std::string helpers_text() {
-  std::string text;
-#ifdef SWAGE_TETGEN
-  text += "swage-tetgen (TetGen, AGPL-3.0-or-later)";
-#endif
-#ifdef SWAGE_CGAL
-  text += std::string(text.empty() ? "" : ", ") + "swage-remesh (CGAL, GPL-3.0-or-later)";
-#endif
-  return text.empty() ? text : "\nrun as programs of their own, apart from this licence: " + text;
-}
-
 std::string version_text() {
-  return std::string("swage " SWAGE_VERSION "\noptional parts: OpenMP ") + kOpenMp + ", OpenCL " + kOpenCl +
-         ", CHOLMOD " + kCholmod + ", Embree " + kEmbree + ", TetGen " + kTetgen + ", CGAL " + kCgal +
-         "\nlicence: " + kLicence + helpers_text();
+  std::string text = "swage " SWAGE_VERSION "\noptional parts: " SWAGE_OPTIONAL_PARTS "\nlicence: ";
+  // Apache-2.0 goes with version 3 of the GPL only.
+  text += SWAGE_HAS_CHOLMOD
+              ? "GPL-3.0-or-later, as CHOLMOD's supernodal factor (GPL-2.0-or-later) and METIS (Apache-2.0) "
+                "are in; without them MIT"
+              : "MIT";
+  const std::string helpers = SWAGE_HELPER_PROGRAMS;
+  return helpers.empty() ? text : text + "\nrun as programs of their own, apart from this licence: " + helpers;
 }
 
 }  // namespace

@@ -109,6 +109,14 @@ void check_method(const ReshapeJob& job) {
   check_finding(job.straight, job.finding);
 }
 
+/// What is left of a file whose faces are damaged is seldom the surface that was meant.
+void check_faces(const MeshFile& file) {
+  if (file.skipped_face.empty()) return;
+  throw InvalidInput(
+      fmt::format("{}: {}: a face has fewer than three vertices: mend or remove such faces, or export the mesh again",
+                  file.path.string(), file.skipped_face));
+}
+
 void check_outputs(const ReshapeJob& job) {
   if (job.output.empty() && job.json.empty()) {
     throw WrongUsage("nothing to write: name the result mesh with -o FILE or the report with --json FILE");
@@ -175,6 +183,7 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   RunSeconds seconds;
   const Stopwatch total, read;
   const MeshFile file = read_mesh(job.mesh);
+  check_faces(file);
   for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
   const Gesture gesture = recipe.on(file);
   check(gesture, file.mesh.positions, file.mesh.triangles);

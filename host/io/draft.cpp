@@ -76,6 +76,7 @@ void add_point(Draft& draft, int vertex, const Slots& slots) {
 
 bool add_polygon(const Input& input, Draft& draft, const std::vector<int>& corners, size_t offset) {
   if (corners.size() < 3) {
+    if (draft.skipped_face.empty()) draft.skipped_face = place(input, offset);
     draft.warnings.add(input, offset, "a face of fewer than three vertices is skipped");
     return false;
   }
@@ -116,6 +117,7 @@ MeshFile finish(Input&& input, Draft&& draft) {
   MeshFile file;
   file.mesh.positions = Eigen::Map<const Positions>(draft.coordinates.data(), draft.vertex_count(), 3);
   file.mesh.triangles = triangulated(input, draft, file.mesh.positions);
+  file.skipped_face = std::move(draft.skipped_face);
   file.warnings = draft.warnings.told();
   file.path = input.path;
   file.groups = std::move(draft.groups);

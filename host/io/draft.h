@@ -33,6 +33,7 @@ struct Draft {
   std::vector<size_t> polygon_offsets;            ///< In the bytes, for messages.
   std::vector<std::pair<int, int>> normal_users;  ///< (normal, polygon), polygons ascending.
   std::map<std::string, std::vector<int>> groups;
+  std::string skipped_face;  ///< Place of the first.
   Warnings warnings;
   MeshSource source;
 

@@ -24,7 +24,8 @@ struct MeshFile {
   Mesh mesh;                                       ///< As solved: polygons triangulated, STL corners welded.
   std::vector<std::vector<int>> polygons;          ///< Faces as the file has them, vertex indices from 0.
   std::map<std::string, std::vector<int>> groups;  ///< OBJ groups: their vertices, ascending.
-  std::vector<std::string> warnings;               ///< What was skipped or mended, with its line.
+  std::string skipped_face;  ///< Place of the first face with fewer than three vertices, as "line 5"; empty for none.
+  std::vector<std::string> warnings;  ///< What was skipped or mended, with its line.
   std::filesystem::path path;
   std::shared_ptr<const MeshSource> source;
 };

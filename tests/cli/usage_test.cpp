@@ -140,7 +140,7 @@ TEST_F(Usage, UsageIsCheckedBeforeAnyFileIsRead) {
 
 TEST_F(Usage, BadInputExitsWith3) {
   write_text(folder_ / "bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-  write_text(folder_ / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_text(folder_ / "short.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
   write_text(folder_ / "none.deform", "[]");
   write_text(folder_ / "beyond.deform", R"([{"label": "far", "displacements": {"99999": [0, 0, 1]}}])");
   write_text(folder_ / "short.fk", "1 0\n");
@@ -152,6 +152,8 @@ TEST_F(Usage, BadInputExitsWith3) {
       {{"info", "@"}, "swage-test"},
       {{"reshape", "@/missing.obj", "--pin", "0", "-o", "@/r.obj"}, "missing.obj"},
       {{"reshape", "@/bad.obj", "--pin", "0", "-o", "@/r.obj"}, "bad.obj"},
+      {{"reshape", "@/short.obj", "--pin", "0", "-o", "@/r.obj"},
+       "short.obj: line 5: a face has fewer than three vertices"},
       {{"reshape", "@/box.obj", "--pin", "99999", "-o", "@/r.obj"}, "99999"},
       {{"reshape", "@/box.obj", "--pin", "group:roof", "-o", "@/r.obj"}, "roof"},
       {{"reshape", "@/box.obj", "--pin", "x>7", "-o", "@/r.obj"}, "x>7"},

@@ -2,10 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 
+#include "mesh_index.h"
 #include "places.h"
 #include "samples.h"
 #include "swage/error.h"
@@ -16,57 +15,19 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Listed {
-  int vertices, triangles;
-};
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (const char c : line) {
-    if (c == '"') is_quoted = !is_quoted;
-    if (c == ',' && !is_quoted) {
-      cells.emplace_back();
-    } else if (c != '"') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-// Counts by file, inside the folder of the meshes.
-std::map<std::string, Listed> index_of_meshes() {
-  std::ifstream lines(shared("data/meshes/index.csv"));
-  std::map<std::string, Listed> listed;
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> names = cells_of(line);
-  const auto column = [&](const char* name) {
-    return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
-  while (std::getline(lines, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (!cells[0].starts_with("dev/")) continue;
-    listed[cells[0].substr(4)] = {std::stoi(cells.at(column("verts"))), std::stoi(cells.at(column("tris")))};
-  }
-  return listed;
-}
-
 TEST(RealMeshes, AreReadAsListedAndComeBackByteForByte) {
   if (!has_shared()) GTEST_SKIP() << "no real meshes beside this checkout";
   int read = 0;
-  for (const auto& [name, listed] : index_of_meshes()) {
-    const auto path = shared("data/meshes") / name;
-    if (name.starts_with("X_") || !std::filesystem::exists(path)) continue;
-    SCOPED_TRACE(name);
-    const MeshFile file = read_mesh(path);
-    EXPECT_EQ(file.mesh.positions.rows(), listed.vertices);
+  for (const ListedMesh& listed : listed_meshes()) {
+    SCOPED_TRACE(listed.name);
+    const MeshFile file = read_mesh(listed.path);
+    EXPECT_EQ(file.mesh.positions.rows(), listed.number("verts"));
     // Listed with triangles that repeat a vertex, each of which is told of here.
-    EXPECT_LE(file.mesh.triangles.rows(), listed.triangles);
-    if (file.warnings.empty() || name.starts_with("A_")) {
-      EXPECT_EQ(file.mesh.triangles.rows(), listed.triangles);
+    EXPECT_LE(file.mesh.triangles.rows(), listed.number("tris"));
+    if (file.warnings.empty() || listed.letter() == 'A') {
+      EXPECT_EQ(file.mesh.triangles.rows(), listed.number("tris"));
     }
-    EXPECT_TRUE(written(file, file.mesh.positions) == read_text(path));
+    EXPECT_TRUE(written(file, file.mesh.positions) == read_text(listed.path));
     ++read;
   }
   EXPECT_GT(read, 150);
