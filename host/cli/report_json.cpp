@@ -1,5 +1,6 @@
 #include "report_json.h"
 
+#include <spdlog/fmt/fmt.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -7,37 +8,17 @@
 #include <map>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 #include "adjacency.h"
-#include "measures.h"
+#include "changes.h"
 #include "swage/error.h"
 
 namespace swage::cli {
 namespace {
 
-struct Spread {
-  double mean = 0, max = 0;
-};
+// A search for more takes long and says no more.
+constexpr std::size_t kMostCrossings = 1'000'000;
 
-/// Angles between rest and new normals, degrees, the mean weighted by rest area: so it does not depend on how the
-/// surface is cut into triangles. Those that lost their area have no normal and are left out.
-Spread normal_error(const Mesh& rest, const Positions& positions) {
-  const Positions before = area_vectors(rest.positions, rest.triangles);
-  const Positions after = area_vectors(positions, rest.triangles);
-  Spread spread;
-  double area = 0;
-  for (Eigen::Index t = 0; t < before.rows(); ++t) {
-    const Eigen::Vector3d n = before.row(t), m = after.row(t);
-    if (n.isZero(0) || m.isZero(0)) continue;
-    const double angle = std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
-    spread.mean += n.norm() * angle;
-    spread.max = std::max(spread.max, angle);
-    area += n.norm();
-  }
-  if (area > 0) spread.mean /= area;
-  return spread;
-}
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// Largest distance of a handle from its target, in box diagonals.
 double handle_error(const Gesture& gesture, const Positions& rest, const Positions& positions) {
@@ -96,9 +77,20 @@ void add_errors(Json& json, const Mesh& rest, const Gesture& gesture, const Resh
   json["handle_error_unfinished"] =
       number(handle_error(gesture, rest.positions, result.unfinished), "handle_error_unfinished");
   json["finalised"] = result.finalised;
-  const Spread angles = normal_error(rest, result.positions);
-  json["normal_error_deg"] = {{"mean", number(angles.mean, "normal_error_deg mean")},
-                              {"max", number(angles.max, "normal_error_deg max")}};
+  const NormalTurns turns = normal_turns(rest.positions, result.positions, rest.triangles);
+  json["normal_error_deg"] = {{"mean", number(degrees(turns.mean), "normal_error_deg mean")},
+                              {"percentile_95", number(degrees(turns.percentile_95), "normal_error_deg percentile_95")},
+                              {"max", number(degrees(turns.max), "normal_error_deg max")}};
+  json["flipped_triangles"] = turns.flipped;
+}
+
+void add_self_intersections(Json& json, const Mesh& rest, const Positions& positions,
+                            std::vector<std::string>& warnings) {
+  const std::optional<int> count = new_self_intersections(rest.positions, positions, rest.triangles, kMostCrossings);
+  if (!count) {
+    warnings.push_back(fmt::format("new_self_intersections: more than {} pairs of triangles cross", kMostCrossings));
+  }
+  json["new_self_intersections"] = count ? Json(*count) : Json(nullptr);
 }
 
 }  // namespace
@@ -117,6 +109,7 @@ Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& ges
   add_run(json, job, file.mesh, backend);
   add_solve(json, result.report, warnings);
   add_errors(json, file.mesh, gesture, result, warnings);
+  if (job.self_intersections) add_self_intersections(json, file.mesh, result.positions, warnings);
   json["seconds"] = {{"read", seconds.read},
                      {"precompute", seconds.precompute},
                      {"solve", seconds.solve},

@@ -8,7 +8,6 @@
 #include "measures.h"
 #include "remesher.h"
 #include "swage/error.h"
-#include "weld.h"
 
 namespace swage {
 namespace {
@@ -47,10 +46,12 @@ struct Scaled {
 };
 
 Scaled scaled(const PositionsRef& positions, const TrianglesRef& triangles) {
-  Scaled result{welded(positions, triangles), 1};
+  const Distinct surface = distinct(positions, triangles, FlatTriangles::kept);
+  Scaled result{{positions(surface.vertices, Eigen::all), surface.triangles}, 1};
   Positions& points = result.mesh.positions;
-  const Distinct surface = distinct(points, result.mesh.triangles);
-  if (surface.triangles.rows() == 0) throw InvalidInput("remesh: triangles: none has an area");
+  if (distinct(points, surface.triangles).triangles.rows() == 0) {
+    throw InvalidInput("remesh: triangles: none has an area");
+  }
   const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   result.scale = std::ldexp(1, std::min(-std::ilogb(extent), 1000));
   points *= result.scale;

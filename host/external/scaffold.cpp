@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "distinct.h"
+#include "intersections.h"
 #include "swage/error.h"
 #include "tetrahedra.h"
 
@@ -63,18 +64,35 @@ Task make_task(const Positions& positions, const Triangles& triangles, double en
   return task;
 }
 
-/// Takes them out of the complex, and returns which of the mesh's they are.
-std::vector<int> leave_out(Task& task, const std::vector<int>& crossing) {
-  std::vector<int> kept, left_out;
+/// Triangles that cross or overlap others, ascending; where very many do, some of them. TetGen would find them too, but
+/// may crash over them.
+std::vector<int> crossing_triangles(const Complex& complex, const Poll& poll) {
+  constexpr std::size_t kMostPairs = 1'000'000;
+  const Crossings found = self_intersections(complex.points, complex.triangles, kMostPairs, [&](double) {
+    ask(poll);
+    return true;
+  });
+  std::vector<int> crossing;
+  for (const auto& [t, other] : found.pairs) crossing.insert(crossing.end(), {t, other});
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  return crossing;
+}
+
+/// Takes them out of the complex, and tells which of the mesh's they are.
+void leave_out(Task& task, const std::vector<int>& crossing, std::vector<int>& left_out) {
+  std::vector<int>& originals = task.surface.originals;
+  std::vector<int> kept;
   for (int t = 0; t < task.complex.triangles.rows(); ++t) {
     if (std::binary_search(crossing.begin(), crossing.end(), t)) {
-      left_out.push_back(task.surface.originals[static_cast<size_t>(t)]);
+      left_out.push_back(originals[static_cast<size_t>(t)]);
     } else {
+      originals[kept.size()] = originals[static_cast<size_t>(t)];
       kept.push_back(t);
     }
   }
+  originals.resize(kept.size());
   task.complex.triangles = Triangles(task.complex.triangles(kept, Eigen::all));
-  return left_out;
 }
 
 [[noreturn]] void refuse_crossing(const Task& task, const std::vector<int>& crossing) {
@@ -186,16 +204,19 @@ Scaffold scaffold(const PositionsRef& positions, const TrianglesRef& triangles, 
   const Poll poll = sparing([&] { return !progress || progress({.stage = "scaffold"}); });
   try {
     Task task = make_task(positions, triangles, options.enlargement);
-    // An exact test for crossings of task.complex.triangles has its place here, before the first filling.
-    Filling filling = fill(task, options, poll);
+    const std::vector<int> crossing = crossing_triangles(task.complex, poll);
+    if (!crossing.empty() && !options.leave_out_crossing) refuse_crossing(task, crossing);
     std::vector<int> left_out;
-    if (options.leave_out_crossing && !filling.crossing.empty()) {
-      left_out = leave_out(task, filling.crossing);
+    leave_out(task, crossing, left_out);
+    Filling filling = fill(task, options, poll);
+    if (!filling.crossing.empty() && options.leave_out_crossing) {  // By rounding.
+      leave_out(task, filling.crossing, left_out);
       filling = fill(task, options, poll);
     }
     if (!filling.crossing.empty()) refuse_crossing(task, filling.crossing);
     check_filling(task, filling);
     Scaffold result = assemble(positions, task, filling);
+    std::sort(left_out.begin(), left_out.end());
     result.left_out = std::move(left_out);
     return result;
   } catch (const Cancelled&) {

@@ -1,21 +1,14 @@
 #include "distinct.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <tuple>
 
+#include "measures.h"
+
 namespace swage {
 namespace {
-
-bool has_area(const Positions& positions, const Eigen::RowVector3i& triangle) {
-  constexpr double kFlat = 1e-10;
-  const Eigen::RowVector3d a = positions.row(triangle[0]), b = positions.row(triangle[1]),
-                           c = positions.row(triangle[2]);
-  const double longest = std::max({(b - a).stableNorm(), (c - b).stableNorm(), (a - c).stableNorm()});
-  return longest > 0 && ((b - a) / longest).cross((c - a) / longest).norm() > kFlat;
-}
 
 /// A triangle's three vertices, ascending, then its number.
 using Named = std::array<int, 4>;
@@ -46,14 +39,14 @@ std::vector<int> first_at_place(const Positions& positions) {
   return firsts;
 }
 
-Distinct distinct(const Positions& positions, const Triangles& triangles) {
-  const std::vector<int> firsts = first_at_place(positions);
-  const Triangles merged = triangles.unaryExpr([&](int v) { return firsts[static_cast<size_t>(v)]; });
+Distinct distinct(const Positions& positions, const Triangles& triangles, FlatTriangles flat) {
+  const Triangles merged = welded(triangles, first_at_place(positions));
   std::vector<Named> named;
   for (int t = 0; t < merged.rows(); ++t) {
-    if (!has_area(positions, merged.row(t))) continue;
-    named.push_back({merged(t, 0), merged(t, 1), merged(t, 2), t});
-    std::sort(named.back().begin(), named.back().begin() + 3);
+    if (flat == FlatTriangles::dropped && !has_area(positions, merged.row(t))) continue;
+    Named corners{merged(t, 0), merged(t, 1), merged(t, 2), t};
+    std::sort(corners.begin(), corners.begin() + 3);
+    if (corners[0] != corners[1] && corners[1] != corners[2]) named.push_back(corners);
   }
   Distinct result;
   result.originals = first_of_each(std::move(named));

@@ -1,4 +1,4 @@
-// A surface without what is there twice or has no area.
+// A surface without what is there twice.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,17 @@
 
 namespace swage {
 
-/// Triangles that have an area, no two on the same three places, over vertices no two of which are at one place.
+/// Triangles no two of which are on the same three places, over vertices no two of which are at one place.
 struct Distinct {
   std::vector<int> vertices;   ///< Of the mesh, ascending: the first at each place that a triangle uses.
   Triangles triangles;         ///< Corners are places in `vertices`.
   std::vector<int> originals;  ///< Of the mesh's triangles the first that each stands for, ascending.
 };
 
-/// A triangle has no area where its height is below 1e-10 of its longest side.
-Distinct distinct(const Positions& positions, const Triangles& triangles);
+enum class FlatTriangles { dropped, kept };
+
+/// Without triangles that name a place twice, and those that have no area (has_area) unless they are kept.
+Distinct distinct(const Positions& positions, const Triangles& triangles, FlatTriangles flat = FlatTriangles::dropped);
 
 /// For each vertex the first at its place.
 std::vector<int> first_at_place(const Positions& positions);

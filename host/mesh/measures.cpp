@@ -42,8 +42,9 @@ Positions unit_normals(const Positions& positions, const Triangles& triangles) {
 bool has_area(const Positions& positions, const Eigen::RowVector3i& triangle) {
   const Eigen::RowVector3d a = positions.row(triangle[0]);
   const Eigen::RowVector3d ab = positions.row(triangle[1]) - a, ac = positions.row(triangle[2]) - a;
-  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-  return ab.cross(ac).norm() > kNoHeight * longest;
+  // Divided first, so that no product over- or underflows.
+  const double longest = std::max({ab.stableNorm(), ac.stableNorm(), (ac - ab).stableNorm()});
+  return longest > 0 && (ab / longest).cross(ac / longest).norm() > kNoHeight;
 }
 
 double mean_edge_length(const Positions& positions, const Triangles& triangles) {

@@ -158,7 +158,20 @@ TEST_F(Reshaping, ErrorsInAReportAreThoseOfTheResult) {
   EXPECT_NEAR(report["handle_error"].get<double>(), farthest / std::sqrt(6.0), 1e-9);
   // A box pulled along its axis keeps its normals.
   EXPECT_LT(report["normal_error_deg"]["max"], 1);
-  EXPECT_LE(report["normal_error_deg"]["mean"], report["normal_error_deg"]["max"]);
+  EXPECT_LE(report["normal_error_deg"]["mean"], report["normal_error_deg"]["percentile_95"]);
+  EXPECT_LE(report["normal_error_deg"]["percentile_95"], report["normal_error_deg"]["max"]);
+  EXPECT_EQ(report["flipped_triangles"], 0);
+}
+
+TEST_F(Reshaping, AReportCountsNewSelfIntersectionsWhereAskedTo) {
+  EXPECT_FALSE(json::parse(reshape({"--json", "-"}).out).contains("new_self_intersections"));
+  EXPECT_EQ(
+      json::parse(reshape({"--json", "-", "--remesh", "never", "--self-intersections"}).out)["new_self_intersections"],
+      0);
+  // One side of the box through the other.
+  const Outcome through = run({"reshape", box_.string(), "--pin", "z<=0", "--pin", "z>=2&x>=1", "--move",
+                               "z>=2&x<=0=3,0,0", "--remesh", "never", "--json", "-", "--self-intersections"});
+  EXPECT_GT(json::parse(through.out)["new_self_intersections"], 0) << through.err;
 }
 
 TEST_F(Reshaping, AGestureFileDoesWhatTheLineDoes) {
@@ -213,7 +226,7 @@ TEST_F(Reshaping, QuietLogsErrorsOnly) {
 }
 
 TEST_F(Reshaping, WarningsOfTheFileAreInTheReport) {
-  write_text(box_, box_obj() + "f 1 2\n");
+  write_text(box_, box_obj() + "f 1 2 2\n");
   const Outcome outcome = reshape({"--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(json::parse(outcome.out)["warnings"].size(), 1);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "adjacency.h"
+#include "distinct.h"
 #include "measures.h"
 #include "places.h"
 #include "remesher.h"
@@ -17,7 +18,6 @@
 #include "shapes.h"
 #include "swage/error.h"
 #include "swage/mesh_io.h"
-#include "weld.h"
 
 namespace swage {
 namespace {
@@ -46,6 +46,11 @@ double volume(const Mesh& mesh) {
     sum += a.dot(b.cross(c)) / 6;
   }
   return sum;
+}
+
+Mesh welded(const Mesh& mesh) {
+  const Distinct result = distinct(mesh.positions, mesh.triangles);
+  return {mesh.positions(result.vertices, Eigen::all), result.triangles};
 }
 
 /// Sum of the lengths of edges of so many triangles.
@@ -179,7 +184,7 @@ TEST_F(Remesh, AnInnerWallStaysJoined) {
   // Of the lower box the rims, and with them the wall, get finer edges than the rest.
   for (const double height : {1.0, 0.05}) {
     const Mesh box = box_with_wall(height);
-    ASSERT_NEAR(length_of_edges(welded(box.positions, box.triangles), 3), 2 + 2 * height, 1e-12);
+    ASSERT_NEAR(length_of_edges(welded(box), 3), 2 + 2 * height, 1e-12);
     const Mesh mesh = remesh(box, kCoarse);
     EXPECT_NEAR(length_of_edges(mesh, 3), 2 + 2 * height, 1e-9);
     EXPECT_EQ(length_of_edges(mesh, 1), 0);

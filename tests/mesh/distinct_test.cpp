@@ -27,6 +27,13 @@ TEST(Distinct, MergesPlacesAndDropsTheSecondOfAKind) {
   EXPECT_EQ(first_at_place(positions), (std::vector<int>{0, 1, 2, 3, 1, 2, 6}));
 }
 
+TEST(Distinct, KeepsFlatTrianglesWhereAskedTo) {
+  const Positions positions{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  const Triangles triangles{{0, 1, 2}, {0, 1, 3}, {0, 4, 3}, {2, 1, 4}};
+  EXPECT_EQ(distinct(positions, triangles).originals, std::vector<int>{1});
+  EXPECT_EQ(distinct(positions, triangles, FlatTriangles::kept).originals, (std::vector<int>{0, 1}));
+}
+
 TEST(Distinct, DropsTrianglesWithoutAreaWhateverTheirSize) {
   for (const double size : {1e-100, 1.0, 1e9}) {
     Positions positions(5, 3);

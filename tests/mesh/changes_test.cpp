@@ -1,0 +1,73 @@
+#include "changes.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <numbers>
+
+#include "shapes.h"
+
+namespace swage::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// About the x axis.
+Positions rotated(const Positions& positions, double angle) {
+  return positions * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix().transpose();
+}
+
+/// Two triangles apart: one of area 8 in the plane z = 0, one of area 0.5 in z = 5.
+Mesh large_and_small() {
+  Mesh mesh;
+  mesh.positions.resize(6, 3);
+  mesh.positions << 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5;
+  mesh.triangles.resize(2, 3);
+  mesh.triangles << 0, 1, 2, 3, 4, 5;
+  return mesh;
+}
+
+TEST(NormalTurns, OfARotationAreItsAngleAwayFromTheAxis) {
+  const Mesh mesh = large_and_small();
+  const NormalTurns turns = normal_turns(mesh.positions, rotated(mesh.positions, 30 * kDegree), mesh.triangles);
+  EXPECT_NEAR(turns.mean, 30 * kDegree, 1e-12);
+  EXPECT_NEAR(turns.percentile_95, 30 * kDegree, 1e-12);
+  EXPECT_NEAR(turns.max, 30 * kDegree, 1e-12);
+  EXPECT_EQ(turns.flipped, 0);
+}
+
+TEST(NormalTurns, AreWeighedByArea) {
+  const Mesh mesh = large_and_small();
+  Positions after = mesh.positions;
+  after.bottomRows(3) = rotated(after.bottomRows(3), 120 * kDegree);
+  const NormalTurns turns = normal_turns(mesh.positions, after, mesh.triangles);
+  EXPECT_NEAR(turns.mean, 120 * kDegree * 0.5 / 8.5, 1e-12);
+  EXPECT_NEAR(turns.percentile_95, 120 * kDegree, 1e-12);  // The large one is 94.1 % of the area.
+  EXPECT_NEAR(turns.max, 120 * kDegree, 1e-12);
+  EXPECT_EQ(turns.flipped, 1);
+
+  after = mesh.positions;
+  after.row(5) = after.row(4);
+  EXPECT_EQ(normal_turns(mesh.positions, after, mesh.triangles).max, 0) << "a triangle without area has no normal";
+  after.row(2) << 0, 40, 0;
+  after.bottomRows(3) = rotated(mesh.positions.bottomRows(3), 120 * kDegree);
+  EXPECT_NEAR(normal_turns(mesh.positions, after, mesh.triangles).mean, 120 * kDegree * 0.5 / 8.5, 1e-12)
+      << "the area before counts";
+}
+
+TEST(NewSelfIntersections, AreThoseThatWereNotThere) {
+  const Mesh mesh = large_and_small();
+  // The small one stands through the large one.
+  Positions through = mesh.positions;
+  through.row(3) << 1, 1, -1;
+  through.row(4) << 1, 1, 1;
+  through.row(5) << 1.5, 1, 1;
+  EXPECT_EQ(new_self_intersections(mesh.positions, through, mesh.triangles, 10), 1);
+  EXPECT_EQ(new_self_intersections(through, through, mesh.triangles, 10), 0);
+  EXPECT_EQ(new_self_intersections(through, mesh.positions, mesh.triangles, 10), 0);
+  EXPECT_EQ(new_self_intersections(mesh.positions, through, mesh.triangles, 0), std::nullopt);
+}
+
+}  // namespace
+}  // namespace swage::test
