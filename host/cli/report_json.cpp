@@ -86,11 +86,15 @@ void add_errors(Json& json, const Mesh& rest, const Gesture& gesture, const Resh
 
 void add_self_intersections(Json& json, const Mesh& rest, const Positions& positions,
                             std::vector<std::string>& warnings) {
-  const std::optional<int> count = new_self_intersections(rest.positions, positions, rest.triangles, kMostCrossings);
-  if (!count) {
-    warnings.push_back(fmt::format("new_self_intersections: more than {} pairs of triangles cross", kMostCrossings));
+  const std::optional<CrossingChange> change =
+      crossing_change(rest.positions, positions, rest.triangles, kMostCrossings);
+  json["new_self_intersections"] = change ? Json(change->fresh) : Json(nullptr);
+  if (!change) {
+    warnings.push_back(fmt::format("more than {} pairs of triangles cross: they are not counted", kMostCrossings));
+  } else if (change->before > 0) {
+    warnings.push_back(fmt::format("{} of triangles cross before the edit",
+                                   change->before == 1 ? "1 pair" : fmt::format("{} pairs", change->before)));
   }
-  json["new_self_intersections"] = count ? Json(*count) : Json(nullptr);
 }
 
 }  // namespace
@@ -109,7 +113,7 @@ Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& ges
   add_run(json, job, file.mesh, backend);
   add_solve(json, result.report, warnings);
   add_errors(json, file.mesh, gesture, result, warnings);
-  if (job.self_intersections) add_self_intersections(json, file.mesh, result.positions, warnings);
+  add_self_intersections(json, file.mesh, result.positions, warnings);
   json["seconds"] = {{"read", seconds.read},
                      {"precompute", seconds.precompute},
                      {"solve", seconds.solve},

@@ -139,8 +139,6 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("MESH", job.mesh, "The mesh to reshape: .obj .ply .stl .off")->required();
   app.add_option("-o,--output", job.output, "Result mesh, format by extension; - for stdout")->type_name("FILE");
   app.add_option("--json", job.json, "Report of the run; - for stdout")->type_name("FILE");
-  app.add_flag("--self-intersections", job.self_intersections,
-               "The report counts pairs of triangles that cross in the result and did not before");
   const std::string group = "Method";
   app.add_option("--method", job.method, "Method (slippage)")->group(group)->check(CLI::IsMember({"slippage"}));
   app.add_option("--solver", job.solver, "steady: whatever the resolution; published: as in the paper (steady)")

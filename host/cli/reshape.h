@@ -23,7 +23,6 @@ struct ReshapeJob {
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.
   bool no_finalise = false;
   std::string remesh = "auto", scaffold = "auto";
-  bool self_intersections = false;  ///< Whether the report counts new ones.
   std::string scaffold_mesh;        ///< For the tetrahedra; empty for nowhere.
 };
 

@@ -51,15 +51,15 @@ NormalTurns normal_turns(const Positions& before, const Positions& after, const 
   return result;
 }
 
-std::optional<int> new_self_intersections(const Positions& before, const Positions& after, const Triangles& triangles,
-                                          std::size_t most_pairs) {
+std::optional<CrossingChange> crossing_change(const Positions& before, const Positions& after,
+                                              const Triangles& triangles, std::size_t most_pairs) {
   const Crossings old = self_intersections(before, triangles, most_pairs);
   const Crossings now = self_intersections(after, triangles, most_pairs);
   if (!old.complete || !now.complete) return std::nullopt;
   std::vector<std::array<int, 2>> fresh;
   std::set_difference(now.pairs.begin(), now.pairs.end(), old.pairs.begin(), old.pairs.end(),
                       std::back_inserter(fresh));
-  return static_cast<int>(fresh.size());
+  return CrossingChange{static_cast<int>(old.pairs.size()), static_cast<int>(fresh.size())};
 }
 
 }  // namespace swage

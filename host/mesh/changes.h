@@ -19,8 +19,13 @@ struct NormalTurns {
 
 NormalTurns normal_turns(const Positions& before, const Positions& after, const Triangles& triangles);
 
-/// Pairs of triangles that cross after and not before. None where more than `most_pairs` cross in either.
-std::optional<int> new_self_intersections(const Positions& before, const Positions& after, const Triangles& triangles,
-                                          std::size_t most_pairs);
+struct CrossingChange {
+  int before = 0;  ///< Pairs of triangles that cross.
+  int fresh = 0;   ///< That cross after, and not before.
+};
+
+/// None where more than `most_pairs` cross before or after.
+std::optional<CrossingChange> crossing_change(const Positions& before, const Positions& after,
+                                              const Triangles& triangles, std::size_t most_pairs);
 
 }  // namespace swage

@@ -56,9 +56,14 @@ ShapeQuality shape_quality(const Positions& positions, const Triangles& triangle
   return quality;
 }
 
+bool has_needles(const ShapeQuality& quality) { return quality.low_angle < 10 * kDegree || quality.sharp_area > 0.1; }
+
+bool is_uneven(const ShapeQuality& quality) { return quality.longest_over_mean > 8; }
+
+bool is_coarse(const ShapeQuality& quality) { return quality.mean_over_diagonal > 0.08; }
+
 bool badly_shaped(const ShapeQuality& quality) {
-  return quality.triangles == 0 || quality.low_angle < 10 * kDegree || quality.sharp_area > 0.1 ||
-         quality.longest_over_mean > 8 || quality.mean_over_diagonal > 0.08;
+  return has_needles(quality) || is_uneven(quality) || is_coarse(quality);
 }
 
 }  // namespace swage

@@ -17,9 +17,15 @@ struct ShapeQuality {
 /// Triangles without area count as of angle 0. Without triangles, as the struct stands.
 ShapeQuality shape_quality(const Positions& positions, const Triangles& triangles);
 
-/// Whether a mesh is to be remeshed before it is reshaped: one triangle in twenty has an angle below 10 degrees, or a
-/// tenth of the area lies in such (needles), an edge is more than 8 times as long as the mean (uneven), or the mean is
-/// above 0.08 of the diagonal (coarse). So are all 68 real models known for bad shape, and 2 of 50 known for good.
+/// One triangle in twenty has an angle below 10 degrees, or a tenth of the area lies in such.
+bool has_needles(const ShapeQuality& quality);
+/// An edge is more than 8 times as long as the mean.
+bool is_uneven(const ShapeQuality& quality);
+/// The mean edge is above 0.08 of the diagonal.
+bool is_coarse(const ShapeQuality& quality);
+
+/// Whether a mesh is to be remeshed before it is reshaped: it has needles, or is uneven or coarse. So are all 68 real
+/// models known for bad shape, and 2 of 50 known for good.
 bool badly_shaped(const ShapeQuality& quality);
 
 }  // namespace swage

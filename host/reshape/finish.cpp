@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -20,7 +21,8 @@ constexpr double kHardest = 100;       // Times as hard.
 constexpr double kPatch = 0.025;       // Radius of a patch, of the unit box.
 constexpr double kShareOfPatch = 0.9;  // Of a handle's weight.
 constexpr double kHardening = 1.4;     // Handles miss by about the 0.7th power of how hard they are held.
-constexpr int kRounds = 4;             // In which all is held harder, until handles miss by less.
+constexpr int kRounds = 4;             // In which all is held harder, until handles miss by less,
+constexpr double kStuck = 0.95;        // or by as much of what they missed by in the last.
 
 /// What can be said for positions.
 struct Merit {
@@ -124,11 +126,12 @@ class Finisher {
     const Patches patches(plan_, dimpled, transforms);
     const Merit before = merit(positions, dimpled);
     Positions again = positions;
-    double hardness = 1;
+    double hardness = 1, last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
       go_on(patches.holds(handles_, hardness), again);
       const double missed = largest_miss(handles_, again) / diagonal_;
-      if (missed <= kMissOfPatch) break;
+      if (missed <= kMissOfPatch || missed > kStuck * last) break;
+      last = missed;
       hardness = std::min(1.02 * hardness * std::pow(missed / kMissOfPatch, kHardening), kHardest);
     }
     const Merit after = merit(again, dimpled);

@@ -49,12 +49,11 @@ bool multigrid_suits(const ReshapePlan& plan, Workspace& work, const Poll& poll)
 
 /// Joins components that no triangle joins.
 void join_components(ReshapePlan& plan, const Mesh& unit_mesh, TransformStep::Rest& rest, const Poll& poll) {
+  if (plan.components == 1) return;
   const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
-  const int count = 1 + *std::max_element(component.begin(), component.end());
-  if (count == 1) return;
   Links links = contacts(unit_mesh, plan.edges, poll);
   std::string& told = plan.paths.components;
-  told = std::to_string(count) + " components, " + std::to_string(links.contacts) + " contacts; ";
+  told = std::to_string(plan.components) + " components, " + std::to_string(links.contacts) + " contacts; ";
   std::string why_not;
   if (std::optional<ScaffoldTies> ties =
           scaffold_ties(plan.options, unit_mesh, component, links.contacts, poll, why_not)) {
@@ -70,6 +69,16 @@ void join_components(ReshapePlan& plan, const Mesh& unit_mesh, TransformStep::Re
   plan.bonds.ties = std::move(links.ties);
 }
 
+/// What warnings and the choice of a stand-in go by.
+void look_at(ReshapePlan& plan) {
+  const auto& [positions, triangles] = plan.mesh;
+  const std::vector<int> component = components(triangles, static_cast<int>(positions.rows()));
+  const std::vector<char> is_flat = flat_triangles(plan.box.into(positions), triangles);
+  plan.components = 1 + *std::max_element(component.begin(), component.end());
+  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
+  plan.quality = shape_quality(positions, triangles);
+}
+
 void make(ReshapePlan& plan, const ProgressFn& progress) {
   Progress now{"", 0, plan.options.pass_limit, 0, 0};
   const auto asked = [&] { return !progress || progress(now); };
@@ -80,6 +89,7 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   };
   const Poll poll = sparing(asked);
   const Stopwatch watch(plan.prepare_seconds);
+  look_at(plan);
   plan.stand_in = stand_in_for(plan, progress, plan.paths.mesh);
   if (plan.stand_in) {
     plan.prepared = true;
@@ -93,8 +103,6 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   poll();
   plan.weights = step_weights(plan.options, unit_mesh);
   TransformStep::Rest rest = rest_shape(plan.options, unit_mesh, plan.edges, curvatures);
-  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
-  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
   const std::string mesh = plan.paths.mesh;
   plan.paths =
       choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.bonds.straight.empty());

@@ -16,6 +16,7 @@
 #include "measures.h"
 #include "multilevel.h"
 #include "pool.h"
+#include "shape_quality.h"
 #include "stopwatch.h"
 #include "surface.h"
 #include "swage/reshape.h"
@@ -126,7 +127,8 @@ struct ReshapePlan {
   std::shared_ptr<const TransformStep::Rest> rest = {};
   std::optional<VertexSystem> vertices = {};  ///< Never factored: workspaces have copies.
   Paths paths = {};
-  int flat_triangles = 0;
+  int components = 1, flat_triangles = 0;
+  ShapeQuality quality = {};
   std::optional<BlockSystem> transforms = {};  ///< Factored, where it is to be.
   std::optional<Multilevel> multilevel = {};   ///< Where not.
   std::shared_ptr<const CoarsePlan> coarse = {};
@@ -171,7 +173,10 @@ bool prepare(ReshapePlan& plan, const ProgressFn& progress);
 std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll = {});
 
 // tell.cpp
-void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, const Positions& positions, Report& report);
+/// What was done.
+void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report);
+/// What of the mesh is not as of one well-made surface, and handles that are not where they were asked to.
+void warn(const ReshapePlan& plan, const Gesture& gesture, ReshapeResult& result);
 
 // check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);

@@ -190,7 +190,19 @@ ReshapeResult solve(ReshapePlan& changing, const std::vector<Hold>& holds, const
   result.positions = mesh_positions(plan, positions);
   result.straight_chains = static_cast<int>(plan.options.straight_chains.size());
   if (plan.scaffold.rows() > 0) result.scaffold = ReshapedScaffold{plan.box.back(positions), plan.scaffold};
-  tell(plan, iterate, start.warm, positions, result.report);
+  tell(plan, iterate, start.warm, result.report);
+  return result;
+}
+
+ReshapeResult timed_solve(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* from,
+                          const ProgressFn& progress) {
+  double seconds = 0;
+  ReshapeResult result;
+  {
+    const Stopwatch watch(seconds);
+    result = solve(plan, holds, from, progress);
+  }
+  result.report.seconds["solve"] = seconds;
   return result;
 }
 
@@ -226,16 +238,6 @@ ReshapeResult cancelled(const ReshapePlan& plan, const ReshapeResult* start) {
   return result;
 }
 
-ReshapeResult solve_stand_in(ReshapePlan& plan, const std::vector<Hold>& holds, const ReshapeResult* start,
-                             const ProgressFn& progress) {
-  StandIn& stand_in = *plan.stand_in;
-  const ReshapeResult* from = start ? start->stand_in.get() : nullptr;
-  ReshapeResult result = carried_back(stand_in, given_mesh(plan),
-                                      solve_holds(*stand_in.plan, on_stand_in(stand_in, holds), from, progress));
-  result.report.paths["mesh"] = plan.paths.mesh;
-  return result;
-}
-
 ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const ReshapeResult* start,
                              const ProgressFn& progress) {
   const Mesh& given = given_mesh(plan);
@@ -243,6 +245,7 @@ ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const Re
   if (start) check_start(*start, plan.options, given);
   ReshapeResult result = solve_holds(plan, holds_of(gesture), start, progress);
   if (plan.given) place_loose(*plan.given, gesture, result);
+  if (result.report.stop != Termination::cancelled) warn(plan, gesture, result);
   return result;
 }
 
@@ -253,11 +256,11 @@ ReshapeResult solve_holds(ReshapePlan& plan, const std::vector<Hold>& holds, con
   const std::vector<Hold> solved = plan.given ? plan.given->into(holds) : holds;
   return in_given_numbers(plan, [&] {
     if (!prepare(plan, progress)) return cancelled(plan, start);
-    if (plan.stand_in) return solve_stand_in(plan, holds, start, progress);
-    if (!plan.given) return solve(plan, solved, start, progress);
+    if (plan.stand_in) return solve_stand_in(plan, given_mesh(plan), holds, start, progress);
+    if (!plan.given) return timed_solve(plan, solved, start, progress);
     std::optional<ReshapeResult> from;
     if (start) from = plan.given->into(*start);
-    return plan.given->back(solve(plan, solved, start ? &*from : nullptr, progress));
+    return plan.given->back(timed_solve(plan, solved, start ? &*from : nullptr, progress));
   });
 }
 

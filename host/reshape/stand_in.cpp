@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "decimate.h"
-#include "shape_quality.h"
 #include "swage/error.h"
 #include "swage/remesh.h"
 
@@ -13,7 +12,7 @@ namespace {
 // Remeshing takes seconds for as many; what is far finer than the stand-in is decimated first.
 constexpr Eigen::Index kMany = 200'000;
 
-bool needs_one(const ReshapePlan& plan, const Mesh& mesh, std::string& told) {
+bool needs_one(const ReshapePlan& plan, std::string& told) {
   const ReshapeOptions& options = plan.options;
   if (options.remesh == When::never) return false;
   if (options.remesh == When::always) return true;
@@ -21,7 +20,7 @@ bool needs_one(const ReshapePlan& plan, const Mesh& mesh, std::string& told) {
     told = "as given: curvatures or straight chains are given for it";
     return false;
   }
-  if (badly_shaped(shape_quality(mesh.positions, mesh.triangles))) return true;
+  if (badly_shaped(plan.quality)) return true;
   told = "as given: its triangles are well shaped";
   return false;
 }
@@ -56,26 +55,7 @@ std::shared_ptr<StandIn> make(const ReshapePlan& plan, const Mesh& given, const 
   return stand_in;
 }
 
-}  // namespace
-
-std::shared_ptr<StandIn> stand_in_for(const ReshapePlan& plan, const ProgressFn& progress, std::string& told) {
-  const Mesh& given = plan.given ? plan.given->mesh() : plan.mesh;
-  if (!needs_one(plan, plan.mesh, told)) return nullptr;
-  const bool must = plan.options.remesh == When::always;
-  try {
-    std::shared_ptr<StandIn> stand_in = make(plan, given, progress);
-    told = "stand-in: remeshed to " + std::to_string(stand_in->mesh.triangles.rows()) + " triangles";
-    return stand_in;
-  } catch (const Unavailable& why) {
-    if (must) throw;
-    told = std::string("as given, badly shaped as it is: ") + why.what();
-  } catch (const Unsolvable& why) {
-    if (must) throw;
-    told = std::string("as given, badly shaped as it is: ") + why.what();
-  }
-  return nullptr;
-}
-
+/// Of points of the mesh.
 std::vector<Hold> on_stand_in(const StandIn& stand_in, const std::vector<Hold>& holds) {
   std::vector<Hold> result;
   for (const Hold& hold : holds) {
@@ -89,6 +69,7 @@ std::vector<Hold> on_stand_in(const StandIn& stand_in, const std::vector<Hold>& 
   return result;
 }
 
+/// Its result as one of the mesh.
 ReshapeResult carried_back(const StandIn& stand_in, const Mesh& mesh, ReshapeResult result) {
   const Attachments& attachments = stand_in.attachments;
   ReshapeResult back;
@@ -108,6 +89,37 @@ ReshapeResult carried_back(const StandIn& stand_in, const Mesh& mesh, ReshapeRes
   back.report = result.report;
   back.stand_in = std::make_shared<const ReshapeResult>(std::move(result));
   return back;
+}
+
+}  // namespace
+
+std::shared_ptr<StandIn> stand_in_for(const ReshapePlan& plan, const ProgressFn& progress, std::string& told) {
+  const Mesh& given = plan.given ? plan.given->mesh() : plan.mesh;
+  if (!needs_one(plan, told)) return nullptr;
+  const bool must = plan.options.remesh == When::always;
+  try {
+    std::shared_ptr<StandIn> stand_in = make(plan, given, progress);
+    told = "stand-in: remeshed to " + std::to_string(stand_in->mesh.triangles.rows()) + " triangles";
+    return stand_in;
+  } catch (const Unavailable& why) {
+    if (must) throw;
+    told = std::string("as given, badly shaped as it is: ") + why.what();
+  } catch (const Unsolvable& why) {
+    if (must) throw;
+    told = std::string("as given, badly shaped as it is: ") + why.what();
+  }
+  return nullptr;
+}
+
+ReshapeResult solve_stand_in(const ReshapePlan& plan, const Mesh& mesh, const std::vector<Hold>& holds,
+                             const ReshapeResult* start, const ProgressFn& progress) {
+  StandIn& stand_in = *plan.stand_in;
+  const ReshapeResult* from = start ? start->stand_in.get() : nullptr;
+  ReshapeResult result =
+      carried_back(stand_in, mesh, solve_holds(*stand_in.plan, on_stand_in(stand_in, holds), from, progress));
+  result.report.paths["mesh"] = plan.paths.mesh;
+  result.report.seconds["precompute"] = plan.prepare_seconds;
+  return result;
 }
 
 }  // namespace swage

@@ -19,10 +19,8 @@ struct StandIn {
 /// Prepared. None where the mesh needs none, or none can be had, and why.
 std::shared_ptr<StandIn> stand_in_for(const ReshapePlan& plan, const ProgressFn& progress, std::string& told);
 
-/// Of points of the mesh.
-std::vector<Hold> on_stand_in(const StandIn& stand_in, const std::vector<Hold>& holds);
-
-/// Its result as one of the mesh.
-ReshapeResult carried_back(const StandIn& stand_in, const Mesh& mesh, ReshapeResult result);
+/// Solves the plan's stand-in, and carries the edit back to the mesh.
+ReshapeResult solve_stand_in(const ReshapePlan& plan, const Mesh& mesh, const std::vector<Hold>& holds,
+                             const ReshapeResult* start, const ProgressFn& progress);
 
 }  // namespace swage

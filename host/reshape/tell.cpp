@@ -1,5 +1,5 @@
 // What a solve's report tells of it.
-#include <numeric>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -52,9 +52,8 @@ std::map<std::string, std::string> paths(const ReshapePlan& plan, const Workspac
           {"start", start}};
 }
 
-/// What of the mesh is not as of one well-made surface, and what was done about it.
 void warn_of_shape(const ReshapePlan& plan, Report& report) {
-  const auto warn = [&](int count, const char* one, const char* many, const char* what) {
+  const auto warn = [&](int count, const char* one, const char* many, const std::string& what) {
     if (count == 0) return;
     report.warnings.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + ": " + what);
   };
@@ -77,49 +76,62 @@ void warn_of_shape(const ReshapePlan& plan, Report& report) {
   warn(open, "edge has one triangle", "edges have one triangle", "the surface ends there");
   warn(crowded, "edge has more than two triangles", "edges have more than two triangles",
        "each two of them are neighbours");
+  warn(plan.components == 1 ? 0 : plan.components, "", "components that no triangle joins",
+       "held together where they touch or cross, else joined");
 }
 
-/// Handles that are not where they were asked to.
-void warn_of_misses(const ReshapePlan& plan, const Holds& handles, const Positions& positions, Report& report) {
+void warn_of_triangles(const ReshapePlan& plan, Report& report) {
+  const ShapeQuality& quality = plan.quality;
+  if (!has_needles(quality) && !is_uneven(quality)) return;
+  std::ostringstream words;
+  words.precision(2);
+  words << "triangles are needles or uneven, one in twenty with an angle below "
+        << quality.low_angle * 180 / std::numbers::pi << " degrees, the longest edge " << quality.longest_over_mean
+        << " times the mean: "
+        << (plan.stand_in ? "a remeshed stand-in was solved" : "solved as they are; a remeshed stand-in is better");
+  report.warnings.push_back(words.str());
+}
+
+void warn_of_misses(const Mesh& mesh, const Gesture& gesture, const Positions& positions, Report& report) {
   constexpr double kFar = 0.01;
-  const double diagonal = box_diagonal(plan.rest->vertices.topRows(plan.mesh.positions.rows()));
-  int count = 0;
-  const Hold* worst = nullptr;
+  const double diagonal = box_diagonal(mesh.positions);
+  int count = 0, worst = -1;
   double most = kFar * diagonal;
-  for (const Hold& hold : handles.points) {
-    const double miss = (hold.point(positions) - hold.target).norm();
+  for (const auto& [vertex, target] : gesture.targets) {
+    const double miss = (positions.row(vertex).transpose() - target).norm();
     if (miss > kFar * diagonal) ++count;
     if (miss > most) {
       most = miss;
-      worst = &hold;
+      worst = vertex;
     }
   }
-  if (!worst) return;
-  const int vertex = plan.given ? plan.given->vertex(worst->vertex()) : worst->vertex();
+  if (count == 0) return;
   std::ostringstream words;
   words.precision(3);
   words << count << (count == 1 ? " handle" : " handles") << " missed by more than 1 % of the box's diagonal, vertex "
-        << vertex << " by " << 100 * most / diagonal
+        << worst << " by " << 100 * most / diagonal
         << " %: keeping the normals of the surface there resists; move more of it along, or less far";
   report.warnings.push_back(words.str());
 }
 
 }  // namespace
 
-void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, const Positions& positions, Report& report) {
+void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& report) {
   if (report.passes > 0) report.energy_by_term = iterate.energy_by_term[static_cast<size_t>(report.best_pass)];
   report.bytes = bytes_by_part(plan, iterate);
   report.paths.merge(paths(plan, iterate.work, warm));
-  warn_of_shape(plan, report);
-  warn_of_misses(plan, iterate.handles, positions, report);
   report.seconds = iterate.seconds;
   report.seconds["precompute"] = plan.prepare_seconds;
-  report.seconds["solve"] = std::accumulate(iterate.seconds.begin(), iterate.seconds.end(), 0.0,
-                                            [](double sum, const auto& stage) { return sum + stage.second; });
   if (iterate.singular > 0) {
     report.warnings.push_back("in a pass " + std::to_string(iterate.singular) +
                               " triangles were flattened: their transforms were inverted with damping");
   }
+}
+
+void warn(const ReshapePlan& plan, const Gesture& gesture, ReshapeResult& result) {
+  warn_of_shape(plan, result.report);
+  warn_of_triangles(plan, result.report);
+  warn_of_misses(plan.given ? plan.given->mesh() : plan.mesh, gesture, result.positions, result.report);
 }
 
 }  // namespace swage

@@ -51,7 +51,7 @@ struct Report {
   std::map<std::string, double> energy_by_term;  ///< Its parts, weighted.
   std::vector<double> energies;                  ///< After each pass.
   std::vector<double> movements;  ///< How far each pass moved a vertex at most from where it started, solver units.
-  std::map<std::string, double> seconds;     ///< Wall time by stage.
+  std::map<std::string, double> seconds;     ///< Wall time by stage; the whole solve and the preparation before.
   std::map<std::string, std::size_t> bytes;  ///< Memory by part, after the last pass; the largest parts.
   std::map<std::string, std::string> paths;  ///< Of several ways to do something the one taken, and why.
   std::vector<std::string> warnings;

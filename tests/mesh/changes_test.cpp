@@ -56,17 +56,22 @@ TEST(NormalTurns, AreWeighedByArea) {
       << "the area before counts";
 }
 
-TEST(NewSelfIntersections, AreThoseThatWereNotThere) {
+TEST(CrossingChange, CountsThoseThatWereNotThere) {
   const Mesh mesh = large_and_small();
   // The small one stands through the large one.
   Positions through = mesh.positions;
   through.row(3) << 1, 1, -1;
   through.row(4) << 1, 1, 1;
   through.row(5) << 1.5, 1, 1;
-  EXPECT_EQ(new_self_intersections(mesh.positions, through, mesh.triangles, 10), 1);
-  EXPECT_EQ(new_self_intersections(through, through, mesh.triangles, 10), 0);
-  EXPECT_EQ(new_self_intersections(through, mesh.positions, mesh.triangles, 10), 0);
-  EXPECT_EQ(new_self_intersections(mesh.positions, through, mesh.triangles, 0), std::nullopt);
+  const auto change = [&](const Positions& before, const Positions& after) {
+    return crossing_change(before, after, mesh.triangles, 10).value();
+  };
+  EXPECT_EQ(change(mesh.positions, through).before, 0);
+  EXPECT_EQ(change(mesh.positions, through).fresh, 1);
+  EXPECT_EQ(change(through, through).before, 1);
+  EXPECT_EQ(change(through, through).fresh, 0);
+  EXPECT_EQ(change(through, mesh.positions).fresh, 0);
+  EXPECT_FALSE(crossing_change(mesh.positions, through, mesh.triangles, 0));
 }
 
 }  // namespace
