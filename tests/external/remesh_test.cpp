@@ -39,15 +39,6 @@ Mesh remesh(const Mesh& mesh, const RemeshOptions& options = {}) {
 
 double area(const Mesh& mesh) { return area_vectors(mesh.positions, mesh.triangles).rowwise().norm().sum() / 2; }
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles.rowwise()) {
-    const Eigen::Vector3d a = mesh.positions.row(t[0]), b = mesh.positions.row(t[1]), c = mesh.positions.row(t[2]);
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return sum;
-}
-
 Mesh welded(const Mesh& mesh) {
   const Distinct result = distinct(mesh.positions, mesh.triangles);
   return {mesh.positions(result.vertices, Eigen::all), result.triangles};
@@ -138,7 +129,7 @@ TEST_F(Remesh, NeedlesOfACylinderBecomeWellShaped) {
   expect_well_shaped(mesh);
   expect_same_surface(mesh, needles);
   EXPECT_TRUE(is_closed(mesh));
-  EXPECT_NEAR(volume(mesh), volume(needles), 0.01 * volume(needles));
+  EXPECT_NEAR(test::volume(mesh), test::volume(needles), 0.01 * test::volume(needles));
   EXPECT_NEAR(static_cast<double>(mesh.triangles.rows()), 3000, 1000);
 }
 
@@ -148,7 +139,7 @@ TEST_F(Remesh, TwelveTrianglesOfABoxKeepItsCornersAndFaces) {
   expect_well_shaped(mesh);
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_NEAR(area(mesh), area(box), 1e-9);
-  EXPECT_NEAR(volume(mesh), 1.5, 1e-9);
+  EXPECT_NEAR(test::volume(mesh), 1.5, 1e-9);
   for (const auto& corner : box.positions.rowwise()) EXPECT_LT(distance_to_vertices(mesh, corner), 1e-9);
   for (double along = 0; along <= 3; along += 0.01) {
     EXPECT_LT(distance_to_vertices(mesh, {along, 1, 0.5}), 0.05);
@@ -167,7 +158,7 @@ TEST_F(Remesh, ThinPlatesGetFinerEdgesAtTheirRims) {
   const Mesh plate = test::box({1, 1, 0.01}, 1);
   const Mesh mesh = remesh(plate, kCoarse);
   EXPECT_TRUE(is_closed(mesh));
-  EXPECT_NEAR(volume(mesh), 0.01, 1e-9);
+  EXPECT_NEAR(test::volume(mesh), 0.01, 1e-9);
   expect_well_shaped(mesh);
   EXPECT_LE(mesh.triangles.rows(), 3 * 3000);
 }
@@ -213,7 +204,7 @@ TEST_F(Remesh, FacesTwiceAndVerticesApartCountOnce) {
   const Mesh again = remesh(test::joined({apart, own}, box), kCoarse);
   EXPECT_TRUE(is_closed(again));
   EXPECT_NEAR(area(again), area(once), 1e-9);
-  EXPECT_NEAR(volume(again), 1, 1e-9);
+  EXPECT_NEAR(test::volume(again), 1, 1e-9);
 }
 
 TEST_F(Remesh, FlatTrianglesLeaveNoCracks) {
@@ -229,10 +220,10 @@ TEST_F(Remesh, FlatTrianglesLeaveNoCracks) {
 TEST_F(Remesh, WindsAsMostOfTheArea) {
   Mesh box = test::box({1, 1, 1}, 2);
   for (const Eigen::Index t : {0, 7, 20}) std::swap(box.triangles(t, 0), box.triangles(t, 1));
-  EXPECT_NEAR(volume(remesh(box, kCoarse)), 1, 1e-9);
+  EXPECT_NEAR(test::volume(remesh(box, kCoarse)), 1, 1e-9);
   Mesh inside_out = test::box({1, 1, 1}, 2);
   inside_out.triangles.col(0).swap(inside_out.triangles.col(1));
-  EXPECT_NEAR(volume(remesh(inside_out, kCoarse)), -1, 1e-9);
+  EXPECT_NEAR(test::volume(remesh(inside_out, kCoarse)), -1, 1e-9);
 }
 
 TEST_F(Remesh, SameBytesAgainAndAtAnotherSize) {
@@ -278,7 +269,7 @@ TEST_F(Remesh, WrapEnclosesASoup) {
     const Eigen::Vector3d middle = soup.positions(t, Eigen::all).colwise().mean();
     EXPECT_NEAR(winding_number(mesh, middle), 1, 0.01);
   }
-  EXPECT_GT(volume(mesh), 0);
+  EXPECT_GT(test::volume(mesh), 0);
 }
 
 template <class Error>
@@ -327,7 +318,7 @@ TEST_F(Remesh, RealNeedlesBecomeWellShaped) {
     expect_well_shaped(mesh);
     expect_same_surface(mesh, model);
     EXPECT_TRUE(is_closed(mesh));
-    EXPECT_NEAR(volume(mesh), volume(model), 0.01 * volume(model));
+    EXPECT_NEAR(test::volume(mesh), test::volume(model), 0.01 * test::volume(model));
   }
 }
 

@@ -14,15 +14,6 @@
 namespace swage {
 namespace {
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles.rowwise()) {
-    const Eigen::Vector3d a = mesh.positions.row(t[0]), b = mesh.positions.row(t[1]), c = mesh.positions.row(t[2]);
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return sum;
-}
-
 void expect_closed(const Mesh& mesh, Eigen::Index euler) {
   const Edges edges = edges_of(mesh.triangles);
   for (int e = 0; e < edges.triangles.size(); ++e) {
@@ -78,7 +69,7 @@ TEST(Decimate, LeavesAClosedSurfaceOfTheSameTopologyWithoutNeedles) {
     EXPECT_LE(proxy.mesh.triangles.rows(), target + 1);
     expect_closed(proxy.mesh, euler);
     EXPECT_GT(slimmest(proxy.mesh), 0.02);
-    EXPECT_NEAR(volume(proxy.mesh), volume(mesh), 0.05 * volume(mesh));
+    EXPECT_NEAR(test::volume(proxy.mesh), test::volume(mesh), 0.05 * test::volume(mesh));
   }
 }
 
@@ -90,7 +81,7 @@ TEST(Decimate, GoesNoFurtherThanAClosedSurface) {
     EXPECT_LT(proxy.mesh.triangles.rows(), target);
     expect_closed(proxy.mesh, euler);
     EXPECT_GT(slimmest(proxy.mesh), 1e-4);
-    EXPECT_GT(volume(proxy.mesh), 0.05 * volume(mesh));
+    EXPECT_GT(test::volume(proxy.mesh), 0.05 * test::volume(mesh));
   }
 }
 
@@ -149,7 +140,7 @@ TEST(Decimate, KeepsTheCornersAndEdgesOfABox) {
     const Mesh mesh = test::box(size, 12);
     const Proxy proxy = decimate(mesh, 120, {});
     EXPECT_EQ(proxy.mesh.triangles.rows(), 120);
-    EXPECT_NEAR(volume(proxy.mesh), size.prod(), 1e-9);
+    EXPECT_NEAR(test::volume(proxy.mesh), size.prod(), 1e-9);
     EXPECT_NEAR(area_vectors(proxy.mesh.positions, proxy.mesh.triangles).rowwise().norm().sum() / 2,
                 2 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]), 1e-9);
   }
@@ -158,7 +149,7 @@ TEST(Decimate, KeepsTheCornersAndEdgesOfABox) {
 TEST(Decimate, AThinPlateStaysAPlate) {
   const Proxy proxy = decimate(test::box({1, 1, 0.001}, 10), 0, {});
   expect_closed(proxy.mesh, 2);
-  EXPECT_GT(volume(proxy.mesh), 1e-4);
+  EXPECT_GT(test::volume(proxy.mesh), 1e-4);
 }
 
 TEST(Decimate, LeavesBoundariesAlone) {
@@ -182,7 +173,7 @@ TEST(Decimate, AVertexOfManySidesIsNoBottleneck) {
   const Proxy proxy = decimate(mesh, 100, {});
   EXPECT_EQ(proxy.mesh.triangles.rows(), 100);
   expect_closed(proxy.mesh, 2);
-  EXPECT_NEAR(volume(proxy.mesh), volume(mesh), 0.02 * volume(mesh));
+  EXPECT_NEAR(test::volume(proxy.mesh), test::volume(mesh), 0.02 * test::volume(mesh));
 }
 
 TEST(Decimate, IsDeterministic) {

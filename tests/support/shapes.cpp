@@ -187,4 +187,13 @@ Gesture move_top(const Mesh& mesh, const Eigen::Vector3d& by) {
   return gesture;
 }
 
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles.rowwise()) {
+    const Eigen::Vector3d a = mesh.positions.row(t[0]), b = mesh.positions.row(t[1]), c = mesh.positions.row(t[2]);
+    sum += a.dot(b.cross(c)) / 6;
+  }
+  return sum;
+}
+
 }  // namespace swage::test

@@ -28,4 +28,7 @@ Gesture move_top(const Mesh& mesh, const Eigen::Vector3d& by);
 Mesh joined(const Mesh& a, const Mesh& b);
 Mesh transformed(const Mesh& mesh, double scale, const Eigen::Vector3d& translation);
 
+/// Enclosed by a closed mesh; negative where it winds inside out.
+double volume(const Mesh& mesh);
+
 }  // namespace swage::test
