@@ -6,7 +6,10 @@
 #include <sstream>
 
 #include "program.h"
+#include "rays_embree.h"
+#include "remesher.h"
 #include "swage/mesh_io.h"
+#include "tetrahedra.h"
 
 namespace swage::test {
 namespace {
@@ -23,7 +26,7 @@ class Reshaping : public testing::Test {
   }
 
   Outcome reshape(const Arguments& more) const {
-    Arguments arguments{"reshape", box_.string(), "--pin", "z<=0", "--move", "z>=2=0,0,0.5"};
+    Arguments arguments{"reshape", box_.string(), "--pin", "z<=0", "--move", "z>=2=0,0,0.5", "--remesh", "never"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   }
@@ -164,11 +167,36 @@ TEST_F(Reshaping, ErrorsInAReportAreThoseOfTheResult) {
 }
 
 TEST_F(Reshaping, AReportCountsNewSelfIntersections) {
-  EXPECT_EQ(json::parse(reshape({"--json", "-", "--remesh", "never"}).out)["new_self_intersections"], 0);
+  EXPECT_EQ(json::parse(reshape({"--json", "-"}).out)["new_self_intersections"], 0);
   // One side of the box through the other.
   const Outcome through = run({"reshape", box_.string(), "--pin", "z<=0", "--pin", "z>=2&x>=1", "--move",
                                "z>=2&x<=0=3,0,0", "--remesh", "never", "--json", "-"});
   EXPECT_GT(json::parse(through.out)["new_self_intersections"], 0) << through.err;
+}
+
+TEST_F(Reshaping, ACoarseMeshIsSolvedByAStandInUnlessItMayNotBe) {
+  const Outcome outcome = run({"reshape", box_.string(), "--pin", "z<=0", "--move", "z>=2=0,0,0.5", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json report = json::parse(outcome.out), as_given = json::parse(reshape({"--json", "-"}).out);
+  EXPECT_THAT(report["paths"]["mesh"].get<std::string>(),
+              HasSubstr(has_cgal() && has_embree() ? "stand-in: remeshed to" : "as given, badly shaped as it is"));
+  EXPECT_LT(report["handle_error"], 0.01);
+  EXPECT_EQ(report["vertices"], 56);
+  EXPECT_EQ(as_given["paths"]["mesh"], "as given");
+}
+
+TEST_F(Reshaping, AScaffoldIsWrittenWhereThereIsOne) {
+  const std::string tetrahedra = (folder_ / "scaffold.mesh").string();
+  const Outcome one_part = reshape({"-o", result_.string(), "--scaffold-mesh", tetrahedra});
+  EXPECT_EQ(one_part.code, 4);
+  EXPECT_THAT(one_part.err, HasSubstr("--scaffold-mesh: no scaffold was made"));
+  EXPECT_EQ(names_in(folder_.path()), (std::vector<std::string>{"box.obj", "pull.deform"}));
+  if (!has_tetgen()) GTEST_SKIP() << "built without TetGen";
+
+  write_text(box_, box_obj() + "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 57 59 58\nf 57 58 60\nf 58 59 60\nf 59 57 60\n");
+  const Outcome two_parts = reshape({"-o", result_.string(), "--scaffold-mesh", tetrahedra});
+  EXPECT_EQ(two_parts.code, 0) << two_parts.err;
+  EXPECT_THAT(read_text(tetrahedra), testing::StartsWith("MeshVersionFormatted"));
 }
 
 TEST_F(Reshaping, AGestureFileDoesWhatTheLineDoes) {
@@ -184,7 +212,7 @@ TEST_F(Reshaping, AGestureFileDoesWhatTheLineDoes) {
   ASSERT_EQ(reshape({"-o", result_.string()}).code, 0);
   const std::string by_file = (folder_ / "by_file.obj").string();
   const std::string gesture = (folder_ / "two.deform").string() + ":pull:up";
-  ASSERT_EQ(run({"reshape", box_.string(), "--gesture", gesture, "-o", by_file}).code, 0);
+  ASSERT_EQ(run({"reshape", box_.string(), "--gesture", gesture, "-o", by_file, "--remesh", "never"}).code, 0);
   const Positions expected = read_mesh(result_).mesh.positions;
   EXPECT_LT((read_mesh(by_file).mesh.positions - expected).cwiseAbs().maxCoeff(), 1e-9);
 }

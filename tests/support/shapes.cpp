@@ -1,5 +1,6 @@
 #include "shapes.h"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <map>
