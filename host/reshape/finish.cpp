@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kMiss = 0.005;        // Of the box's diagonal: handles that miss by more are held harder.
 constexpr double kMissOfPatch = 0.01;  // The same of patches, which let their middle go a little.
+constexpr double kTooFar = 0.02;       // Handles that miss by more are not let go further.
 constexpr double kHardest = 100;       // Times as hard.
 constexpr double kPatch = 0.025;       // Radius of a patch, of the unit box.
 constexpr double kShareOfPatch = 0.9;  // Of a handle's weight.
@@ -118,10 +119,10 @@ class Finisher {
     better ? void(positions = std::move(again)) : void(iterate_.transforms = transforms);
   }
 
-  /// Whether there were dimples.
+  /// Whether there were dimples, and handles near enough.
   bool hold_patches(Positions& positions) {
     const std::vector<Hold> dimpled = dimples(handles_, *plan_.rest, positions);
-    if (dimpled.empty()) return false;
+    if (dimpled.empty() || largest_miss(handles_, positions) > kTooFar * diagonal_) return false;
     const Transforms transforms = iterate_.transforms;
     const Patches patches(plan_, dimpled, transforms);
     const Merit before = merit(positions, dimpled);
