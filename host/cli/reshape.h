@@ -23,7 +23,7 @@ struct ReshapeJob {
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.
   bool no_finalise = false;
   std::string remesh = "auto", scaffold = "auto";
-  std::string scaffold_mesh;        ///< For the tetrahedra; empty for nowhere.
+  std::string scaffold_mesh;  ///< For the tetrahedra; empty for nowhere.
 };
 
 /// Reads, solves, then writes. Throws before anything is written.
