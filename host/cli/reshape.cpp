@@ -167,7 +167,7 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   CLI::Option* straight =
       app.add_option("--straight", job.straight,
                      "Edges that stay straight: auto finds them (steady, up to 200,000 triangles), none, or a "
-                     "file of chains (auto)")
+                     "file of chains (none)")
           ->group(group)
           ->type_name("auto|none|FILE");
   add_finding_options(app, job.finding, *straight);

@@ -18,7 +18,7 @@ struct ReshapeJob {
   std::string solver = "steady";
   std::string linear_solver = "auto";
   std::string curvature;          ///< A .fk file; empty to compute.
-  std::string straight = "auto";  ///< Straight chains: auto finds them, none, or a file of them.
+  std::string straight = "none";  ///< Straight chains: auto finds them, none, or a file of them.
   StraightFinding finding;
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.
   bool no_finalise = false;
