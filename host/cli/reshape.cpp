@@ -69,7 +69,7 @@ ReshapeResult solve(const Mesh& mesh, const Gesture& gesture, const ReshapeOptio
   return result;
 }
 
-/// Chains that were found and not asked for may make a system singular.
+/// Chains that were found may make a system singular.
 ReshapeResult solve_with_chains_or_without(const Mesh& mesh, const Gesture& gesture, ReshapeOptions& options,
                                            const CommonOptions& common, RunSeconds& seconds) {
   try {
@@ -164,12 +164,10 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("--curvature", job.curvature, "Principal curvatures, instead of computing them")
       ->group(group)
       ->type_name("FILE.fk");
-  CLI::Option* straight =
-      app.add_option("--straight", job.straight,
-                     "Edges that stay straight: auto finds them (steady, up to 200,000 triangles), none, or a "
-                     "file of chains (none)")
-          ->group(group)
-          ->type_name("auto|none|FILE");
+  CLI::Option* straight = app.add_option("--straight", job.straight,
+                                         "Edges that stay straight: auto finds them, none, or a file of chains (none)")
+                              ->group(group)
+                              ->type_name("auto|none|FILE");
   add_finding_options(app, job.finding, *straight);
   app.add_option("--feature-angle", job.feature_angle,
                  "Surfaces beside an edge of a smaller interior angle stretch independently, degrees (105)")

@@ -44,12 +44,8 @@ std::vector<std::vector<int>> find_chains(const Mesh& mesh, const StraightFindin
 
 void set_chains(const std::string& straight, const StraightFinding& finding, const Mesh& mesh,
                 ReshapeOptions& options) {
-  // Larger meshes are best solved by multigrid, for which chains are too stiff; what is published finds none.
-  constexpr Eigen::Index kMostTriangles = 200'000;
   if (straight == "auto") {
-    if (options.solver == ReshapeSolver::steady && mesh.triangles.rows() <= kMostTriangles) {
-      options.find_chains = as_options(finding);
-    }
+    options.find_chains = as_options(finding);
   } else if (straight != "none") {
     options.straight_chains = read_straight_chains(straight, static_cast<int>(mesh.positions.rows()));
   }

@@ -22,8 +22,7 @@ void add_finding_options(CLI::App& app, StraightFinding& finding, CLI::Option& s
 
 std::vector<std::vector<int>> find_chains(const Mesh& mesh, const StraightFinding& finding);
 
-/// As the options take it of `straight`: auto, which finds them for the steady solver on meshes that are not very
-/// large, none, or a file. Throws UnreadableFile.
+/// As the options take it of `straight`: auto, none or a file. Throws UnreadableFile.
 void set_chains(const std::string& straight, const StraightFinding& finding, const Mesh& mesh, ReshapeOptions& options);
 
 /// Throws WrongUsage where chains are not to be found and it is told how.

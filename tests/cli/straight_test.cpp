@@ -51,9 +51,8 @@ class Straight : public testing::Test {
 
 TEST_F(Straight, ChainsAreFoundWhereAsked) {
   EXPECT_EQ(chains_with({"--straight", "auto"}), 12);
-  EXPECT_EQ(chains_with({}), 0);
   EXPECT_EQ(chains_with({"--straight", "none"}), 0);
-  EXPECT_EQ(chains_with({"--straight", "auto", "--solver", "published"}), 0);
+  EXPECT_EQ(chains_with({}), 0);
 }
 
 TEST_F(Straight, ChainsAreFoundByAngleAndLength) {
@@ -74,7 +73,7 @@ TEST_F(Straight, ChainsWrittenDoWhatThoseFoundDo) {
   EXPECT_EQ(chains_with({"--straight", chains_}), 12);
   const Outcome found = reshape({"-o", "-", "--straight", "auto"}), read = reshape({"-o", "-", "--straight", chains_});
   EXPECT_EQ(found.out, read.out);
-  EXPECT_NE(found.out, reshape({"-o", "-", "--straight", "none"}).out);
+  EXPECT_NE(found.out, reshape({"-o", "-"}).out);
 }
 
 TEST_F(Straight, InfoFindsByAngleAndLength) {
