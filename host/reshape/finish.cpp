@@ -116,7 +116,11 @@ class Finisher {
     constexpr double kTurn = 1.5, kSmallTurn = 0.01;  // Radians.
     const bool better = after.miss < 0.8 * before.miss && after.mean_turn < kTurn * before.mean_turn + kSmallTurn;
     tell("held harder", before, after, better);
-    better ? void(positions = std::move(again)) : void(iterate_.transforms = transforms);
+    if (better) {
+      positions = std::move(again);
+    } else {
+      iterate_.transforms = transforms;
+    }
   }
 
   /// Whether there were dimples, and handles near enough.
@@ -139,7 +143,11 @@ class Finisher {
     const bool better =
         after.miss <= std::max(before.miss, kMissOfPatch * diagonal_) && after.beside_turn < before.beside_turn;
     tell(std::to_string(dimpled.size()) + " dimples held by patches", before, after, better);
-    better ? void(positions = std::move(again)) : void(iterate_.transforms = transforms);
+    if (better) {
+      positions = std::move(again);
+    } else {
+      iterate_.transforms = transforms;
+    }
     return true;
   }
 

@@ -53,7 +53,7 @@ std::map<std::string, std::string> paths(const ReshapePlan& plan, const Workspac
 }
 
 void warn_of_shape(const ReshapePlan& plan, Report& report) {
-  const auto warn = [&](int count, const char* one, const char* many, const std::string& what) {
+  const auto warn = [&](int count, const char* one, const char* many, const char* what) {
     if (count == 0) return;
     report.warnings.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + ": " + what);
   };

@@ -144,8 +144,8 @@ class Reshape {
   bool prepare(const ProgressFn& progress = {});
 
   /// Moves the handles to their targets. Does not depend on earlier solves.
-  /// Throws InvalidInput as check(gesture, positions, triangles) does and where all handles are vertices of no
-  /// triangle, and Unsolvable where a system is singular.
+  /// Handles that are vertices of no triangle go where they are asked to; where all are, so does the surface nearest to
+  /// them. Throws InvalidInput as check(gesture, positions, triangles) does, and Unsolvable where a system is singular.
   ReshapeResult solve(const Gesture& gesture, const ProgressFn& progress = {});
 
   /// The same from the result of another gesture on this mesh, as while dragging, instead of the rest shape: fewer
