@@ -69,30 +69,17 @@ ReshapeResult solve(const Mesh& mesh, const Gesture& gesture, const ReshapeOptio
   return result;
 }
 
-/// Chains that were found may make a system singular.
-ReshapeResult solve_with_chains_or_without(const Mesh& mesh, const Gesture& gesture, ReshapeOptions& options,
-                                           const CommonOptions& common, RunSeconds& seconds) {
-  try {
-    return solve(mesh, gesture, options, common, seconds);
-  } catch (const Unsolvable& reason) {
-    if (!options.find_chains) throw;
-    spdlog::warn("again without straight chains: {}", reason.what());
-  }
-  options.find_chains.reset();
-  return solve(mesh, gesture, options, common, seconds);
-}
-
 /// A device that `auto` chose may turn out too small.
 ReshapeResult solve_or_fall_back(const Mesh& mesh, const Gesture& gesture, ReshapeOptions& options,
                                  const CommonOptions& common, RunSeconds& seconds, const BackendChoice& choice) {
   try {
-    return solve_with_chains_or_without(mesh, gesture, options, common, seconds);
+    return solve(mesh, gesture, options, common, seconds);
   } catch (const Unavailable& reason) {
     if (!choice.is_auto() || options.backend->name() == "cpu") throw;
     spdlog::warn("the cpu does the local steps: {}", reason.what());
   }
   options.backend = cpu_backend();
-  return solve_with_chains_or_without(mesh, gesture, options, common, seconds);
+  return solve(mesh, gesture, options, common, seconds);
 }
 
 void write_result(const std::string& path, const ReshapeJob& job, const MeshFile& file, const Positions& positions) {

@@ -34,10 +34,14 @@ void add_edges(Quadratic& quadratic, const BlockSystem::Stars& edges, const Tran
   }
 }
 
-/// Eq. 22 for one inner vertex of a chain.
+/// Eq. 22 for one inner vertex of a chain; beside an edge shorter than firm_length no firmer than beside one of it, or
+/// the matrix would be singular in double precision.
 void add_straight(Quadratic& quadratic, const StraightTriple& triple, const Eigen::VectorXd& target_lengths,
-                  double weight) {
-  const double before = 1 / target_lengths[triple.edge_before], after = 1 / target_lengths[triple.edge_after];
+                  double weight, double firm_length) {
+  const double length_before = target_lengths[triple.edge_before], length_after = target_lengths[triple.edge_after];
+  const double shorter = std::min(length_before, length_after);
+  const double softer = shorter < firm_length ? shorter / firm_length : 1;
+  const double before = softer / length_before, after = softer / length_after;
   const std::array<int, 3> vertices{triple.before, triple.middle, triple.after};
   const std::array<double, 3> factors{before, -before - after, after};
   for (size_t a = 0; a < 3; ++a) {
@@ -125,7 +129,7 @@ Eigen::VectorXd assemble(VertexSystem& vertices, const TransformStep::Rest& rest
   vertices.system.values() = *vertices.constant;
   add_edges(quadratic, *vertices.edges, rest, quadratics);
   for (const StraightTriple& triple : bonds.straight) {
-    add_straight(quadratic, triple, quadratics.target_lengths, bonds.straightness_weight);
+    add_straight(quadratic, triple, quadratics.target_lengths, bonds.straightness_weight, bonds.firm_length);
   }
   for (const Tie& tie : bonds.ties) {
     for (const auto& [v, factor] : tie.factors) {

@@ -108,6 +108,7 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
       choose_paths(plan.options, plan.mesh.positions.rows(), plan.mesh.triangles.rows(), !plan.bonds.straight.empty());
   plan.paths.mesh = mesh;
   plan.bonds.straightness_weight = plan.weights.straightness;
+  plan.bonds.firm_length = plan.options.solver == ReshapeSolver::steady ? rest.mean_edge_length : 0;
   begin("components", 0.15);
   join_components(plan, unit_mesh, rest, poll);
   plan.rest = std::make_shared<const TransformStep::Rest>(std::move(rest));

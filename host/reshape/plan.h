@@ -41,6 +41,7 @@ struct Tie {
 struct Bonds {
   std::vector<StraightTriple> straight = {};
   double straightness_weight = 0;
+  double firm_length = 0;  ///< Chains are no firmer where their edges are shorter.
   std::vector<Tie> ties = {};
 };
 

@@ -189,23 +189,39 @@ TEST(Reshape, TheSolversOwnWeightsAreUsedWhereNoneAreGiven) {
             reshape(mesh.positions, mesh.triangles, gesture, given).positions);
 }
 
+/// Of a chain's vertex from the line through its ends.
+double distance_to_chord(const Positions& positions, const std::vector<int>& chain, size_t i) {
+  const Eigen::Vector3d from = positions.row(chain.front()), to = positions.row(chain.back());
+  const Eigen::Vector3d along = (to - from).normalized(), offset = positions.row(chain[i]).transpose() - from;
+  return (offset - along * along.dot(offset)).norm();
+}
+
 TEST(Reshape, StraightChainsStayStraight) {
   const Mesh mesh = test::box({1, 1, 1}, 6);
   std::vector<int> chain;
   for (int i = 0; i <= 6; ++i) chain.push_back(vertex_nearest(mesh, {i / 6.0, 1, 1}));
   Gesture gesture = lift_top(mesh, {0, 0, 0});
   gesture.add(chain[3], mesh.positions.row(chain[3]).transpose() + Eigen::Vector3d(0, 0.3, 0));
-  auto bend = [&](const Positions& positions) {
-    const Eigen::Vector3d from = positions.row(chain.front()), to = positions.row(chain.back());
-    const Eigen::Vector3d along = (to - from).normalized(), middle = positions.row(chain[3]).transpose() - from;
-    return (middle - along * along.dot(middle)).norm();
-  };
+  const auto bend = [&](const Positions& positions) { return distance_to_chord(positions, chain, 3); };
   ReshapeOptions straight;
   straight.straight_chains = {chain};
   const double free = bend(reshape(mesh.positions, mesh.triangles, gesture).positions);
   const double held = bend(reshape(mesh.positions, mesh.triangles, gesture, straight).positions);
   EXPECT_LT(held, 0.01);
   EXPECT_LT(held, free / 3);
+}
+
+TEST(Reshape, ANeedleBesideAStraightChainLeavesItSolvable) {
+  Mesh mesh = test::box({1, 1, 1}, 6);
+  std::vector<int> chain;
+  for (int i = 0; i <= 6; ++i) chain.push_back(vertex_nearest(mesh, {i / 6.0, 1, 1}));
+  for (const int near : {2, 4}) mesh.positions(chain[near], 0) = mesh.positions(chain[near - 1], 0) + 3e-6;
+  ReshapeOptions straight;
+  straight.remesh = When::never;
+  straight.straight_chains = {chain};
+  const ReshapeResult result = reshape(mesh.positions, mesh.triangles, lift_top(mesh, {0.2, 0.3, 0}), straight);
+  EXPECT_EQ(result.report.stop, Termination::moved_little);
+  for (size_t i = 1; i + 1 < chain.size(); ++i) EXPECT_LT(distance_to_chord(result.positions, chain, i), 0.01);
 }
 
 TEST(Reshape, AComponentThatIsHeldStays) {
