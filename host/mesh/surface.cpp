@@ -195,7 +195,8 @@ Surface surface_of(const Mesh& mesh, double tolerance) {
   surface.mesh.positions = mesh.positions(surface.vertices, Eigen::all);
   surface.mesh.triangles =
       joined(surface.triangles, Eigen::all).unaryExpr([&](int v) { return surface.vertex_of[static_cast<size_t>(v)]; });
-  if (surface.mesh.triangles != whole) surface.edges = edges_of(surface.mesh.triangles);
+  const bool is_whole = surface.mesh.triangles.rows() == whole.rows() && surface.mesh.triangles == whole;
+  if (!is_whole) surface.edges = edges_of(surface.mesh.triangles);
   surface.counts.turned = wind_alike(surface.mesh.triangles, surface.edges);
   return surface;
 }

@@ -63,7 +63,8 @@ TEST_F(OnDevices, AreListedAsJson) {
 }
 
 TEST_F(OnDevices, AutoMarksNoCpuDeviceUnlessNamed) {
-  for (const json& device : json::parse(run({"devices", "--json", "-"}).out)["devices"]) {
+  const json told = json::parse(run({"devices", "--json", "-"}).out);
+  for (const json& device : told.at("devices")) {
     EXPECT_FALSE(device["kind"] == "cpu" && device["auto"]) << device;
   }
   EXPECT_EQ(json::parse(run({"devices", "--json", "-"}, {"SWAGE_DEVICE=0"}).out)["auto"], 0);
