@@ -28,6 +28,7 @@ struct Command {
 
 Command reshape_command(CLI::App& program, const CommonOptions& common);
 Command info_command(CLI::App& program, const CommonOptions& common);
+Command compare_command(CLI::App& program, const CommonOptions& common);
 Command demo_command(CLI::App& program, const CommonOptions& common);
 Command devices_command(CLI::App& program, const CommonOptions& common);
 

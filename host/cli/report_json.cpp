@@ -10,6 +10,7 @@
 
 #include "adjacency.h"
 #include "changes.h"
+#include "measures.h"
 #include "swage/error.h"
 
 namespace swage::cli {
@@ -77,11 +78,12 @@ void add_errors(Json& json, const Mesh& rest, const Gesture& gesture, const Resh
   json["handle_error_unfinished"] =
       number(handle_error(gesture, rest.positions, result.unfinished), "handle_error_unfinished");
   json["finalised"] = result.finalised;
-  const NormalTurns turns = normal_turns(rest.positions, result.positions, rest.triangles);
-  json["normal_error_deg"] = {{"mean", number(degrees(turns.mean), "normal_error_deg mean")},
-                              {"percentile_95", number(degrees(turns.percentile_95), "normal_error_deg percentile_95")},
-                              {"max", number(degrees(turns.max), "normal_error_deg max")}};
-  json["flipped_triangles"] = turns.flipped;
+  const Eigen::VectorXd turns = normal_turns(rest.positions, result.positions, rest.triangles);
+  const Spread angle = spread(turns, area_vectors(rest.positions, rest.triangles).rowwise().norm());
+  json["normal_error_deg"] = {{"mean", number(degrees(angle.mean), "normal_error_deg mean")},
+                              {"percentile_95", number(degrees(angle.percentile_95), "normal_error_deg percentile_95")},
+                              {"max", number(degrees(angle.max), "normal_error_deg max")}};
+  json["flipped_triangles"] = flipped(turns);
 }
 
 void add_self_intersections(Json& json, const Mesh& rest, const Positions& positions,

@@ -32,6 +32,7 @@ When when(const std::string& name) {
 
 ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const BackendChoice& choice) {
   ReshapeOptions options;
+  options.method = job.method == to_string(ReshapeMethod::alup) ? ReshapeMethod::alup : ReshapeMethod::slippage;
   options.solver = job.solver == to_string(ReshapeSolver::published) ? ReshapeSolver::published : ReshapeSolver::steady;
   options.linear_solver = linear_solver(job.linear_solver);
   options.feature_angle = job.feature_angle * std::numbers::pi / 180;
@@ -140,7 +141,10 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("-o,--output", job.output, "Result mesh, format by extension; - for stdout")->type_name("FILE");
   app.add_option("--json", job.json, "Report of the run; - for stdout")->type_name("FILE");
   const std::string group = "Method";
-  app.add_option("--method", job.method, "Method (slippage)")->group(group)->check(CLI::IsMember({"slippage"}));
+  app.add_option("--method", job.method,
+                 "slippage: as the paper; alup: its forerunner, scales uniformly where it can (slippage)")
+      ->group(group)
+      ->check(CLI::IsMember({"slippage", "alup"}));
   app.add_option("--solver", job.solver, "steady: whatever the resolution; published: as in the paper (steady)")
       ->group(group)
       ->check(CLI::IsMember({"steady", "published"}));

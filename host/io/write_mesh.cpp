@@ -68,7 +68,7 @@ void append_uint32(std::string& out, std::uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>((value >> shift) & 0xff);
 }
 
-std::string ply_bytes(const Content& content) {
+std::string ply_bytes(const Content& content, const std::vector<FaceValues>& faces = {}) {
   size_t longest = 0;
   for (size_t f = 0; f < content.face_count(); ++f) longest = std::max(longest, content.corner_count(f));
   const bool is_short = longest <= std::numeric_limits<std::uint8_t>::max();
@@ -76,7 +76,9 @@ std::string ply_bytes(const Content& content) {
                     std::to_string(content.positions.rows()) +
                     "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
                     std::to_string(content.face_count()) + "\nproperty list " + (is_short ? "uchar" : "uint") +
-                    " int vertex_indices\nend_header\n";
+                    " int vertex_indices\n";
+  for (const FaceValues& face : faces) out += "property double " + face.name + "\n";
+  out += "end_header\n";
   for (Eigen::Index v = 0; v < content.positions.rows(); ++v) {
     for (int k = 0; k < 3; ++k) append_number(out, NumberKind::f64_little, content.positions(v, k));
   }
@@ -84,6 +86,9 @@ std::string ply_bytes(const Content& content) {
     const auto count = static_cast<std::uint32_t>(content.corner_count(f));
     is_short ? out.push_back(static_cast<char>(count)) : append_uint32(out, count);
     for (size_t k = 0; k < count; ++k) append_uint32(out, static_cast<std::uint32_t>(content.corner(f, k)));
+    for (const FaceValues& face : faces) {
+      append_number(out, NumberKind::f64_little, face.values[static_cast<Eigen::Index>(f)]);
+    }
   }
   return out;
 }
@@ -165,6 +170,18 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<std::vector<int>> no_polygons;
   const PositionsRef positions = mesh.positions;
   write_file(path, fresh_bytes(format_of(path), {positions, mesh.triangles, no_polygons}));
+}
+
+void write_face_values(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FaceValues>& faces) {
+  check(mesh.positions, mesh.triangles);
+  for (const FaceValues& face : faces) {
+    if (face.values.size() == mesh.triangles.rows()) continue;
+    throw InvalidInput("write_face_values: " + face.name + ": " + std::to_string(face.values.size()) + " values for " +
+                       std::to_string(mesh.triangles.rows()) + " triangles");
+  }
+  const std::vector<std::vector<int>> no_polygons;
+  const PositionsRef positions = mesh.positions;
+  write_file(path, ply_bytes({positions, mesh.triangles, no_polygons}, faces));
 }
 
 }  // namespace swage

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -14,40 +15,38 @@
 #include "measures.h"
 
 namespace swage {
-namespace {
-
-using AngleAndArea = std::pair<double, double>;
-
-/// The smallest angle that bounds those of 95 % of the area. Sorts.
-double percentile_95(std::vector<AngleAndArea>& turns, double area) {
-  std::sort(turns.begin(), turns.end());
-  double within = 0;
-  for (const auto& [angle, part] : turns) {
-    within += part;
-    if (within >= 0.95 * area) return angle;
-  }
-  return turns.empty() ? 0 : turns.back().first;
-}
-
-}  // namespace
-
-NormalTurns normal_turns(const Positions& before, const Positions& after, const Triangles& triangles) {
+Eigen::VectorXd normal_turns(const Positions& before, const Positions& after, const Triangles& triangles) {
   const Positions from = area_vectors(before, triangles), to = area_vectors(after, triangles);
-  NormalTurns result;
-  std::vector<AngleAndArea> turns;
-  double area = 0;
+  Eigen::VectorXd turns(from.rows());
   for (Eigen::Index t = 0; t < from.rows(); ++t) {
     const Eigen::Vector3d n = from.row(t), m = to.row(t);
-    if (n.isZero(0) || m.isZero(0)) continue;
-    const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
-    turns.emplace_back(angle, n.norm());
-    area += n.norm();
-    result.mean += n.norm() * angle;
-    result.max = std::max(result.max, angle);
-    result.flipped += angle > std::numbers::pi / 2 ? 1 : 0;
+    turns[t] =
+        n.isZero(0) || m.isZero(0) ? std::numeric_limits<double>::quiet_NaN() : std::atan2(n.cross(m).norm(), n.dot(m));
   }
-  if (area > 0) result.mean /= area;
-  result.percentile_95 = percentile_95(turns, area);
+  return turns;
+}
+
+int flipped(const Eigen::VectorXd& turns) { return static_cast<int>((turns.array() > std::numbers::pi / 2).count()); }
+
+Spread spread(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
+  std::vector<std::pair<double, double>> known;
+  double whole = 0, sum = 0;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    known.emplace_back(values[i], weights[i]);
+    whole += weights[i];
+    sum += weights[i] * values[i];
+  }
+  if (!(whole > 0)) return {};
+  std::sort(known.begin(), known.end());
+  Spread result{sum / whole, known.back().first, known.back().first};
+  double within = 0;
+  for (const auto& [value, weight] : known) {
+    within += weight;
+    if (within < 0.95 * whole) continue;
+    result.percentile_95 = value;
+    break;
+  }
   return result;
 }
 

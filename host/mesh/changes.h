@@ -4,20 +4,19 @@
 #include <cstddef>
 #include <optional>
 
+#include "swage/compare.h"
 #include "swage/mesh.h"
 
 namespace swage {
 
-/// Angles in radians, in [0, pi], between the normals of triangles before and after. Weighted by the area before, so
-/// that they do not depend on how the surface is cut into triangles; those without area before or after are left out.
-struct NormalTurns {
-  double mean = 0;
-  double percentile_95 = 0;  ///< 95 % of the area turn by no more.
-  double max = 0;
-  int flipped = 0;  ///< Triangles turned by more than a right angle.
-};
+/// #T: radians, [0, pi], between the normals of triangles before and after; NaN without area before or after.
+Eigen::VectorXd normal_turns(const Positions& before, const Positions& after, const Triangles& triangles);
 
-NormalTurns normal_turns(const Positions& before, const Positions& after, const Triangles& triangles);
+/// Triangles turned by more than a right angle.
+int flipped(const Eigen::VectorXd& turns);
+
+/// `weights` are areas or in proportion to them. NaN among the values counts for nothing.
+Spread spread(const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
 
 struct CrossingChange {
   int before = 0;  ///< Pairs of triangles that cross.

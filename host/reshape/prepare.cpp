@@ -114,10 +114,14 @@ TransformStep::Rest rest_shape(const ReshapeOptions& options, const Mesh& unit_m
   if (weights.sphericity > 0) rest.transform_sphericity_factor = weights.transform_sphericity / weights.sphericity;
   rest.sphericities.resize(rest.triangles.rows());
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t) {
-    const bool has_curvature = is_flat[static_cast<size_t>(t)] == 0;
-    rest.sphericities[t] =
-        has_curvature ? weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1))
-                      : 0;
+    if (is_flat[static_cast<size_t>(t)] != 0) {
+      rest.sphericities[t] = 0;
+    } else if (options.method == ReshapeMethod::alup) {
+      rest.sphericities[t] = weights.sphericity;  // Conformality, eq. 18 and 27.
+    } else {
+      rest.sphericities[t] =
+          weights.sphericity * sphericity_weight(unit_box_curvatures(t, 0), unit_box_curvatures(t, 1));
+    }
   }
   add_pairs(rest, edges, options.feature_angle, weights.similarity);
   return rest;

@@ -49,14 +49,23 @@ ReshapeWeights ReshapeWeights::published() {
   return weights;
 }
 
+ReshapeWeights ReshapeWeights::of(ReshapeMethod method, ReshapeSolver solver) {
+  ReshapeWeights weights = solver == ReshapeSolver::published ? published() : ReshapeWeights();
+  if (method == ReshapeMethod::slippage) return weights;
+  weights.normal /= 10;
+  weights.similarity = weights.scale = 0;
+  return weights;
+}
+
+const char* to_string(ReshapeMethod method) { return method == ReshapeMethod::slippage ? "slippage" : "alup"; }
+
 const char* to_string(ReshapeSolver solver) { return solver == ReshapeSolver::steady ? "steady" : "published"; }
 
 StepWeights step_weights(const ReshapeOptions& options, const Mesh& unit_mesh) {
-  if (options.solver == ReshapeSolver::published)
-    return as_given(options.weights.value_or(ReshapeWeights::published()));
+  const ReshapeWeights weights = options.weights.value_or(ReshapeWeights::of(options.method, options.solver));
+  if (options.solver == ReshapeSolver::published) return as_given(weights);
   const double area = area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm().sum() / 2;
-  return at_resolution(options.weights.value_or(ReshapeWeights()),
-                       mean_edge_length(unit_mesh.positions, unit_mesh.triangles), edge_length(area));
+  return at_resolution(weights, mean_edge_length(unit_mesh.positions, unit_mesh.triangles), edge_length(area));
 }
 
 }  // namespace swage

@@ -51,6 +51,16 @@ void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, cons
 /// Writes a mesh that came from no file.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh);
 
+/// A number of each triangle.
+struct FaceValues {
+  std::string name;  ///< Letters, digits and underscores.
+  Eigen::VectorXd values;
+};
+
+/// Writes a PLY of the mesh whose triangles have these numbers as properties. Throws InvalidInput as check() does and
+/// where there are more or fewer numbers than triangles, and UnwritableFile.
+void write_face_values(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FaceValues>& faces);
+
 /// Writes text beside `path`, then renames: `path` holds the old content or the new one, never half.
 /// Throws UnwritableFile.
 void write_file(const std::filesystem::path& path, const std::string& content);

@@ -21,6 +21,15 @@
 
 namespace swage {
 
+enum class ReshapeMethod {
+  slippage,  ///< Surfaces stretch as they may while they go on sliding along themselves (section 4).
+  alup,      ///< Its forerunner: surfaces scale as locally uniformly as possible (section 3), so conformality counts on
+             ///< every triangle, and neither similarity across edges nor scale does.
+};
+
+/// "slippage", "alup".
+const char* to_string(ReshapeMethod method);
+
 enum class ReshapeSolver {
   steady,     ///< To the fixed point of a problem whose answer depends neither on the mesh's resolution nor on when
               ///< passes stop: the paper's terms with other weights (host/reshape/steady.md).
@@ -61,7 +70,7 @@ struct ReshapeWeights {
   double normal = 12;                ///< w_normal
   double similarity = 1;             ///< of E_similarity
   double connect = 1;                ///< of E_connect
-  double sphericity = 1;             ///< of E_sphericity
+  double sphericity = 1;             ///< of E_sphericity; in ALUP of E_conformal
   double scale = 1e-4;               ///< w_scale
   double regularizer = 1e-3;         ///< w_reg
   double normal_regularizer = 6e-3;  ///< Of |T n - n|², which the paper has not (host/reshape/steady.md).
@@ -70,11 +79,14 @@ struct ReshapeWeights {
 
   /// The paper's: normal 10, regularizer 1e-4, none of the normal's, handle and straightness 1e5.
   static ReshapeWeights published();
+  /// A method's, as a solver takes them. Of ALUP: normal a tenth, none of similarity and scale.
+  static ReshapeWeights of(ReshapeMethod method, ReshapeSolver solver);
 };
 
 struct ReshapeOptions {
+  ReshapeMethod method = ReshapeMethod::slippage;
   ReshapeSolver solver = ReshapeSolver::steady;
-  std::optional<ReshapeWeights> weights;                ///< The solver's own where none are given.
+  std::optional<ReshapeWeights> weights;                ///< The method's own where none are given.
   double feature_angle = std::numbers::pi * 105 / 180;  ///< Interior dihedral angle in radians, [0, pi]: surfaces
                                                         ///< beside a sharper edge stretch independently.
   std::optional<Curvatures> unit_box_curvatures;  ///< #T × 2, of the mesh scaled into the unit box; else computed.

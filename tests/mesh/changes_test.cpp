@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "measures.h"
 #include "shapes.h"
 
 namespace swage::test {
@@ -28,9 +29,18 @@ Mesh large_and_small() {
   return mesh;
 }
 
+struct NormalTurns : Spread {
+  int flipped;
+};
+
+NormalTurns turns_of(const Positions& before, const Positions& after, const Triangles& triangles) {
+  const Eigen::VectorXd turns = normal_turns(before, after, triangles);
+  return {spread(turns, area_vectors(before, triangles).rowwise().norm()), flipped(turns)};
+}
+
 TEST(NormalTurns, OfARotationAreItsAngleAwayFromTheAxis) {
   const Mesh mesh = large_and_small();
-  const NormalTurns turns = normal_turns(mesh.positions, rotated(mesh.positions, 30 * kDegree), mesh.triangles);
+  const NormalTurns turns = turns_of(mesh.positions, rotated(mesh.positions, 30 * kDegree), mesh.triangles);
   EXPECT_NEAR(turns.mean, 30 * kDegree, 1e-12);
   EXPECT_NEAR(turns.percentile_95, 30 * kDegree, 1e-12);
   EXPECT_NEAR(turns.max, 30 * kDegree, 1e-12);
@@ -41,7 +51,7 @@ TEST(NormalTurns, AreWeighedByArea) {
   const Mesh mesh = large_and_small();
   Positions after = mesh.positions;
   after.bottomRows(3) = rotated(after.bottomRows(3), 120 * kDegree);
-  const NormalTurns turns = normal_turns(mesh.positions, after, mesh.triangles);
+  const NormalTurns turns = turns_of(mesh.positions, after, mesh.triangles);
   EXPECT_NEAR(turns.mean, 120 * kDegree * 0.5 / 8.5, 1e-12);
   EXPECT_NEAR(turns.percentile_95, 120 * kDegree, 1e-12);  // The large one is 94.1 % of the area.
   EXPECT_NEAR(turns.max, 120 * kDegree, 1e-12);
@@ -49,10 +59,10 @@ TEST(NormalTurns, AreWeighedByArea) {
 
   after = mesh.positions;
   after.row(5) = after.row(4);
-  EXPECT_EQ(normal_turns(mesh.positions, after, mesh.triangles).max, 0) << "a triangle without area has no normal";
+  EXPECT_EQ(turns_of(mesh.positions, after, mesh.triangles).max, 0) << "a triangle without area has no normal";
   after.row(2) << 0, 40, 0;
   after.bottomRows(3) = rotated(mesh.positions.bottomRows(3), 120 * kDegree);
-  EXPECT_NEAR(normal_turns(mesh.positions, after, mesh.triangles).mean, 120 * kDegree * 0.5 / 8.5, 1e-12)
+  EXPECT_NEAR(turns_of(mesh.positions, after, mesh.triangles).mean, 120 * kDegree * 0.5 / 8.5, 1e-12)
       << "the area before counts";
 }
 

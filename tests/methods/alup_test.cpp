@@ -1,0 +1,87 @@
+// ALUP, the forerunner of slippage-preserving reshaping (section 3).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "edit_measures.h"
+#include "shapes.h"
+#include "swage/compare.h"
+#include "swage/reshape.h"
+
+namespace swage::test {
+namespace {
+
+/// The lowest stay, the highest go by `by`.
+Gesture lift(const Mesh& mesh, const Eigen::Vector3d& by) {
+  Gesture gesture;
+  const double low = mesh.positions.col(1).minCoeff(), high = mesh.positions.col(1).maxCoeff();
+  for (int v = 0; v < mesh.positions.rows(); ++v) {
+    if (mesh.positions(v, 1) <= low + 1e-9) gesture.add(v, mesh.positions.row(v).transpose());
+    if (mesh.positions(v, 1) >= high - 1e-9) gesture.add(v, mesh.positions.row(v).transpose() + by);
+  }
+  return gesture;
+}
+
+Positions reshaped(const Mesh& mesh, const Gesture& gesture, ReshapeMethod method, ReshapeSolver solver) {
+  ReshapeOptions options;
+  options.method = method;
+  options.solver = solver;
+  return reshape(mesh.positions, mesh.triangles, gesture, options).positions;
+}
+
+class Alup : public testing::TestWithParam<ReshapeSolver> {};
+
+/// Figure 5h: ALUP gives up orientation for uniform scale, and the slippage-preserving method does not.
+TEST_P(Alup, ABoxMadeHigherKeepsItsNormalsLessThanSlippageDoes) {
+  const Mesh mesh = box({1, 1, 1}, 6);
+  const Gesture gesture = lift(mesh, {0, 0.6, 0});
+  const auto change = [&](ReshapeMethod method) {
+    return mean_normal_change(mesh, reshaped(mesh, gesture, method, GetParam()));
+  };
+  EXPECT_LT(change(ReshapeMethod::slippage), 0.5);
+  EXPECT_GT(change(ReshapeMethod::alup), 1);
+  EXPECT_LT(change(ReshapeMethod::alup), 5);
+}
+
+/// Two opposite vertices of a sphere, pulled apart by its radius.
+TEST_P(Alup, ASphereGrowsAlike) {
+  const Mesh mesh = sphere(1, 3);
+  Gesture gesture;
+  Eigen::Index low = 0, high = 0;
+  mesh.positions.col(1).minCoeff(&low);
+  mesh.positions.col(1).maxCoeff(&high);
+  gesture.add(static_cast<int>(low), 1.5 * mesh.positions.row(low).transpose());
+  gesture.add(static_cast<int>(high), 1.5 * mesh.positions.row(high).transpose());
+  const Positions grown = reshaped(mesh, gesture, ReshapeMethod::alup, GetParam());
+  const Comparison changes = compare(mesh.positions, grown, mesh.triangles);
+  EXPECT_LT(changes.uneven.mean, 0.05);
+  EXPECT_GT(changes.size.mean, std::log(1.3));
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Alup, testing::Values(ReshapeSolver::steady, ReshapeSolver::published),
+                         [](const auto& tested) { return std::string(to_string(tested.param)); });
+
+/// Conformality is what the slippage-preserving method gives up (figure 5e).
+TEST(AlupAndSlippage, ACylinderMadeLongerGrowsWiderInTheFormer) {
+  const Mesh mesh = cylinder(0.5, 1, 32, 10);
+  Gesture gesture;
+  Eigen::Index low = 0, high = 0;
+  (mesh.positions.rowwise() - Eigen::RowVector3d(0, mesh.positions.col(1).minCoeff(), 0))
+      .rowwise()
+      .norm()
+      .minCoeff(&low);
+  (mesh.positions.rowwise() - Eigen::RowVector3d(0, mesh.positions.col(1).maxCoeff(), 0))
+      .rowwise()
+      .norm()
+      .minCoeff(&high);
+  gesture.add(static_cast<int>(low), mesh.positions.row(low).transpose());
+  gesture.add(static_cast<int>(high), mesh.positions.row(high).transpose() + Eigen::Vector3d(0, 1, 0));
+  const auto width = [&](ReshapeMethod method) {
+    const Positions longer = reshaped(mesh, gesture, method, ReshapeSolver::steady);
+    return longer.col(0).maxCoeff() - longer.col(0).minCoeff();
+  };
+  EXPECT_GT(width(ReshapeMethod::alup), 1.2 * width(ReshapeMethod::slippage));
+}
+
+}  // namespace
+}  // namespace swage::test
