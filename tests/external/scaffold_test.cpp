@@ -206,7 +206,8 @@ TEST_F(ScaffoldOf, SeveralAtOnceOfAllSizes) {
   std::vector<std::future<void>> threads;
   for (int thread = 0; thread < 4; ++thread) {
     threads.push_back(std::async(std::launch::async, [thread] {
-      const Mesh mesh = test::transformed(shapes()[static_cast<size_t>(thread)].mesh, std::pow(1000, thread - 2), {0, 0, 0});
+      const Mesh mesh =
+          test::transformed(shapes()[static_cast<size_t>(thread)].mesh, std::pow(1000, thread - 2), {0, 0, 0});
       const Scaffold first = scaffold(mesh.positions, mesh.triangles);
       expect_is_a_scaffold(first, mesh, 1.5);
       for (int i = 0; i < 5; ++i) EXPECT_EQ(scaffold(mesh.positions, mesh.triangles).tetrahedra, first.tetrahedra);
