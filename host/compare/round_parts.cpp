@@ -17,7 +17,7 @@ namespace {
 constexpr double kRound = 0.01;  // In radii: how far a vertex of a round part is off it at most.
 // Variances of unit normals: along the axis of a cylinder or cone there is none, across it and of a sphere there is.
 constexpr double kNoSpread = 1e-4, kSomeSpread = 1e-3;
-constexpr size_t kFewestVertices = 8;
+constexpr size_t kFewestVertices = 12;
 
 /// A smooth part of the surface, with the vertices that lie on it.
 struct Part {
