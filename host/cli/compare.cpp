@@ -3,6 +3,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "failure.h"
@@ -29,10 +30,10 @@ struct CompareJob {
 
 struct Measured {
   std::string path;
+  Positions positions;
+  std::vector<std::string> warnings;
   Comparison changes;
 };
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 bool asks_for_handles(const GestureOptions& gesture) {
   return !gesture.gesture.empty() || !gesture.pins.empty() || !gesture.moves.empty();
@@ -62,9 +63,9 @@ CompareOptions options_of(const CompareJob& job, const MeshFile& rest) {
   return options;
 }
 
-Comparison measure(const Mesh& rest, const std::string& path, const CompareOptions& options,
-                   const CommonOptions& common) {
-  const MeshFile edit = read_mesh(path);
+Measured measure(const Mesh& rest, const std::string& path, const CompareOptions& options,
+                 const CommonOptions& common) {
+  MeshFile edit = read_mesh(path);
   for (const std::string& warning : edit.warnings) spdlog::warn("{}", warning);
   if (edit.mesh.positions.rows() != rest.positions.rows()) {
     throw InvalidInput(fmt::format("{}: it has {} vertices, but the rest has {}: an edit keeps their number and order",
@@ -76,7 +77,7 @@ Comparison measure(const Mesh& rest, const std::string& path, const CompareOptio
     return !interrupted();
   });
   stop_if_interrupted();
-  return changes;
+  return {path, std::move(edit.mesh.positions), std::move(edit.warnings), std::move(changes)};
 }
 
 Json spread_json(const Spread& spread, double factor = 1) {
@@ -128,15 +129,17 @@ Json changes_json(const Measured& measured) {
           {"flipped_triangles", changes.flipped},
           {"collapsed_triangles", changes.collapsed},
           {"self_intersections_before", optional_json(changes.crossings_before)},
-          {"new_self_intersections", optional_json(changes.new_crossings)}};
+          {"new_self_intersections", optional_json(changes.new_crossings)},
+          {"warnings", measured.warnings}};
 }
 
-Json compare_json(const CompareJob& job, const Mesh& rest, const std::vector<Measured>& edits) {
+Json compare_json(const CompareJob& job, const MeshFile& rest, const std::vector<Measured>& edits) {
   Json json = {{"command", "compare"},
                {"version", SWAGE_VERSION},
                {"input", job.rest},
-               {"vertices", rest.positions.rows()},
-               {"triangles", rest.triangles.rows()},
+               {"vertices", rest.mesh.positions.rows()},
+               {"triangles", rest.mesh.triangles.rows()},
+               {"warnings", rest.warnings},
                {"edits", Json::array()}};
   for (const Measured& edit : edits) json["edits"].push_back(changes_json(edit));
   return json;
@@ -153,7 +156,7 @@ void print(const std::vector<Measured>& edits) {
   std::string text = fmt::format("{:<{}}  {:>7} {:>7} {:>7}  {:>7} {:>7} {:>7} {:>8}  {:>7} {:>7} {:>7}  {:>5} {:>5}\n",
                                  "edit", width, "normals", "95 %", "most", "uneven", "shear", "size", "slippage",
                                  "round %", "bend %", "handle", "flips", "cross");
-  for (const auto& [path, c] : edits) {
+  for (const auto& [path, positions, warnings, c] : edits) {
     text += fmt::format(
         "{:<{}}  {:>7.2f} {:>7.2f} {:>7.2f}  {:>7.3f} {:>7.2f} {:>7.3f} {:>8.3f}  {:>7} {:>7} {:>7}  {:>5} {:>5}\n",
         path, width, degrees(c.turn.mean), degrees(c.turn.percentile_95), degrees(c.turn.max), c.uneven.mean,
@@ -165,10 +168,10 @@ void print(const std::vector<Measured>& edits) {
                "radii; bend, handle: % of the diagonal; cross: new pairs\n");
 }
 
-void write_faces(const std::string& path, const Mesh& rest, const std::string& edit, const FaceChanges& faces) {
+void write_faces(const std::string& path, const Triangles& triangles, const Measured& edit) {
   if (path.empty()) return;
-  const Positions positions = read_mesh(edit).mesh.positions;
-  write_face_values(path, {positions, rest.triangles},
+  const FaceChanges& faces = edit.changes.faces;
+  write_face_values(path, {edit.positions, triangles},
                     {{"normal_error_deg", faces.turn * degrees(1)},
                      {"stretch_large", faces.stretches.col(0)},
                      {"stretch_small", faces.stretches.col(1)},
@@ -185,9 +188,9 @@ void run_compare(const CompareJob& job, const CommonOptions& common) {
   for (const std::string& warning : rest.warnings) spdlog::warn("{}", warning);
   const CompareOptions options = options_of(job, rest);
   std::vector<Measured> edits;
-  for (const std::string& path : job.edits) edits.push_back({path, measure(rest.mesh, path, options, common)});
-  write_faces(job.faces, rest.mesh, job.edits.front(), edits.front().changes.faces);
-  write_json(job.json, compare_json(job, rest.mesh, edits));
+  for (const std::string& path : job.edits) edits.push_back(measure(rest.mesh, path, options, common));
+  write_faces(job.faces, rest.mesh.triangles, edits.front());
+  write_json(job.json, compare_json(job, rest, edits));
   if (job.json != kStdout) print(edits);
 }
 

@@ -108,8 +108,6 @@ Json firsts(const Diagnosis& found) {
   return places;
 }
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
 Json corner(const Eigen::Vector3d& point) { return {point[0], point[1], point[2]}; }
 
 void add_measures(Json& json, const Diagnosis& found, std::vector<std::string>& warnings) {

@@ -19,17 +19,6 @@ namespace {
 // A search for more takes long and says no more.
 constexpr std::size_t kMostCrossings = 1'000'000;
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
-/// Largest distance of a handle from its target, in box diagonals.
-double handle_error(const Gesture& gesture, const Positions& rest, const Positions& positions) {
-  double error = 0;
-  for (const auto& [vertex, target] : gesture.targets) {
-    error = std::max(error, (positions.row(vertex).transpose() - target).norm());
-  }
-  return error / box_diagonal(rest);
-}
-
 int component_count(const Mesh& mesh) {
   const std::vector<int> component = components(mesh.triangles, static_cast<int>(mesh.positions.rows()));
   return 1 + *std::max_element(component.begin(), component.end());
@@ -74,9 +63,10 @@ void add_solve(Json& json, const Report& report, std::vector<std::string>& warni
 void add_errors(Json& json, const Mesh& rest, const Gesture& gesture, const ReshapeResult& result,
                 std::vector<std::string>& warnings) {
   auto number = [&](double value, const char* name) { return finite(value, name, warnings); };
-  json["handle_error"] = number(handle_error(gesture, rest.positions, result.positions), "handle_error");
+  const double diagonal = box_diagonal(rest.positions);
+  json["handle_error"] = number(largest_miss(gesture, result.positions) / diagonal, "handle_error");
   json["handle_error_unfinished"] =
-      number(handle_error(gesture, rest.positions, result.unfinished), "handle_error_unfinished");
+      number(largest_miss(gesture, result.unfinished) / diagonal, "handle_error_unfinished");
   json["finalised"] = result.finalised;
   const Eigen::VectorXd turns = normal_turns(rest.positions, result.positions, rest.triangles);
   const Spread angle = spread(turns, area_vectors(rest.positions, rest.triangles).rowwise().norm());

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct RunSeconds {
 
 Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& gesture, const ReshapeResult& result,
                  const Backend& backend, const RunSeconds& seconds);
+
+inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// `value`, but null where it is not finite, with a line in `warnings`: JSON has no word for infinity.
 Json finite(double value, const std::string& name, std::vector<std::string>& warnings);

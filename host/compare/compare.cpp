@@ -77,14 +77,6 @@ std::optional<double> out_of_round(const std::vector<RoundPart>& parts) {
   return sum / whole;
 }
 
-double largest_miss(const Gesture& gesture, const Positions& edit) {
-  double miss = 0;
-  for (const auto& [vertex, target] : gesture.targets) {
-    miss = std::max(miss, (edit.row(vertex).transpose() - target).norm());
-  }
-  return miss;
-}
-
 /// Of the area.
 double measured(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
   const double known = values.array().isNaN().select(0, weights.array()).sum();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <ostream>
 
@@ -175,6 +176,10 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
 void write_face_values(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FaceValues>& faces) {
   check(mesh.positions, mesh.triangles);
   for (const FaceValues& face : faces) {
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    if (face.name.empty() || !std::all_of(face.name.begin(), face.name.end(), is_plain)) {
+      throw InvalidInput("write_face_values: '" + face.name + "' is no name of letters, digits and underscores");
+    }
     if (face.values.size() == mesh.triangles.rows()) continue;
     throw InvalidInput("write_face_values: " + face.name + ": " + std::to_string(face.values.size()) + " values for " +
                        std::to_string(mesh.triangles.rows()) + " triangles");

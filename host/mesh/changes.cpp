@@ -50,6 +50,14 @@ Spread spread(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
   return result;
 }
 
+double largest_miss(const Gesture& gesture, const Positions& positions) {
+  double miss = 0;
+  for (const auto& [vertex, target] : gesture.targets) {
+    miss = std::max(miss, (positions.row(vertex).transpose() - target).norm());
+  }
+  return miss;
+}
+
 std::optional<CrossingChange> crossing_change(const Positions& before, const Positions& after,
                                               const Triangles& triangles, std::size_t most_pairs) {
   const Crossings old = self_intersections(before, triangles, most_pairs);

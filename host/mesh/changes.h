@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "swage/compare.h"
+#include "swage/handles.h"
 #include "swage/mesh.h"
 
 namespace swage {
@@ -17,6 +18,9 @@ int flipped(const Eigen::VectorXd& turns);
 
 /// `weights` are areas or in proportion to them. NaN among the values counts for nothing.
 Spread spread(const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
+
+/// The farthest that a handle is from its target, mesh units.
+double largest_miss(const Gesture& gesture, const Positions& positions);
 
 struct CrossingChange {
   int before = 0;  ///< Pairs of triangles that cross.

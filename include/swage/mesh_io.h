@@ -58,7 +58,7 @@ struct FaceValues {
 };
 
 /// Writes a PLY of the mesh whose triangles have these numbers as properties. Throws InvalidInput as check() does and
-/// where there are more or fewer numbers than triangles, and UnwritableFile.
+/// where a name is none or there are more or fewer numbers than triangles, and UnwritableFile.
 void write_face_values(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FaceValues>& faces);
 
 /// Writes text beside `path`, then renames: `path` holds the old content or the new one, never half.

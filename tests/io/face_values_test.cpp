@@ -36,9 +36,12 @@ TEST(FaceValues, StandBehindEachTrianglesCorners) {
   EXPECT_EQ(again.positions, mesh.positions);
 }
 
-TEST(FaceValues, AreAsManyAsTriangles) {
+TEST(FaceValues, AreNamedAndAsManyAsTriangles) {
   const TempFolder folder;
   EXPECT_THROW(write_face_values(folder / "faces.ply", sheet(1), {{"turn", Eigen::Vector3d(1, 2, 3)}}), InvalidInput);
+  for (const char* name : {"", "a b", "x\nend_header"}) {
+    EXPECT_THROW(write_face_values(folder / "faces.ply", sheet(1), {{name, Eigen::Vector2d(1, 2)}}), InvalidInput);
+  }
   EXPECT_FALSE(std::filesystem::exists(folder / "faces.ply"));
 }
 
