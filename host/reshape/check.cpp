@@ -63,18 +63,6 @@ void check_start(const ReshapeResult& start, const ReshapeOptions& options, cons
   check_matrix("transforms", start.transforms, mesh.triangles.rows(), " triangles");
 }
 
-const char* to_string(When when) {
-  switch (when) {
-    case When::never:
-      return "never";
-    case When::always:
-      return "always";
-    case When::automatic:
-      break;
-  }
-  return "auto";
-}
-
 void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh) {
   if (chains.empty()) return;
   const Edges edges = edges_of(mesh.triangles);
@@ -86,13 +74,6 @@ void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh)
                          std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge");
     }
   }
-}
-
-void check_surface(const Surface& surface) {
-  const Positions areas = area_vectors(surface.mesh.positions, surface.mesh.triangles);
-  if (areas.rows() > 0 && areas.squaredNorm() > 0) return;
-  throw InvalidInput("Reshape: triangles: none of " + std::to_string(surface.triangle_of.size()) +
-                     " has any area: there is no surface; check the mesh's units and coordinates");
 }
 
 }  // namespace swage

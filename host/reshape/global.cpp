@@ -98,18 +98,6 @@ void add_sphericity(BlockSystem& system, const TransformStep::Rest& rest, Eigen:
 
 }  // namespace
 
-Eigen::RowVector3d Hold::point(const Positions& positions) const {
-  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-  for (size_t k = 0; k < 3; ++k) sum += factors[static_cast<Eigen::Index>(k)] * positions.row(vertices[k]);
-  return sum;
-}
-
-int Hold::vertex() const {
-  Eigen::Index most = 0;
-  factors.maxCoeff(&most);
-  return vertices[static_cast<size_t>(most)];
-}
-
 Eigen::VectorXd constant_values(BlockSystem& system, const TransformStep::Rest& rest, const std::vector<Tie>& ties,
                                 const Poll& poll) {
   system.set_zero();

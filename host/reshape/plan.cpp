@@ -6,7 +6,7 @@
 #include "coarse.h"
 #include "element_graphs.h"
 #include "flat.h"
-#include "links.h"
+#include "join.h"
 #include "stand_in.h"
 
 namespace swage {
@@ -48,25 +48,14 @@ bool multigrid_suits(const ReshapePlan& plan, Workspace& work, const Poll& poll)
 }
 
 /// Joins components that no triangle joins.
-void join_components(ReshapePlan& plan, const Mesh& unit_mesh, TransformStep::Rest& rest, const Poll& poll) {
-  if (plan.components == 1) return;
-  const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
-  Links links = contacts(unit_mesh, plan.edges, poll);
-  std::string& told = plan.paths.components;
-  told = std::to_string(plan.components) + " components, " + std::to_string(links.contacts) + " contacts; ";
-  std::string why_not;
-  if (std::optional<ScaffoldTies> ties =
-          scaffold_ties(plan.options, unit_mesh, component, links.contacts, poll, why_not)) {
-    told += "scaffold of " + std::to_string(ties->scaffold.tetrahedra.rows()) + " tetrahedra";
-    rest.vertices = ties->scaffold.positions;
-    plan.scaffold = std::move(ties->scaffold.tetrahedra);
-    links.ties.insert(links.ties.end(), ties->ties.begin(), ties->ties.end());
-  } else {
-    add_links(unit_mesh, poll, links);
-    told += std::to_string(links.ties.size() - static_cast<size_t>(links.contacts)) +
-            " links between nearest points, no scaffold: " + why_not;
+void join(ReshapePlan& plan, const Mesh& unit_mesh, TransformStep::Rest& rest, const Poll& poll) {
+  Joined joined = join_components(unit_mesh, plan.edges, plan.options.scaffold, poll);
+  if (joined.scaffold) {
+    rest.vertices = std::move(joined.scaffold->positions);
+    plan.scaffold = std::move(joined.scaffold->tetrahedra);
   }
-  plan.bonds.ties = std::move(links.ties);
+  plan.bonds.ties = std::move(joined.ties);
+  plan.paths.components = std::move(joined.told);
 }
 
 /// What warnings and the choice of a stand-in go by.
@@ -110,7 +99,7 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   plan.bonds.straightness_weight = plan.weights.straightness;
   plan.bonds.firm_length = plan.options.solver == ReshapeSolver::steady ? rest.mean_edge_length : 0;
   begin("components", 0.15);
-  join_components(plan, unit_mesh, rest, poll);
+  join(plan, unit_mesh, rest, poll);
   plan.rest = std::make_shared<const TransformStep::Rest>(std::move(rest));
   begin("order", 0.2);
   plan.vertices = vertex_system(*plan.rest, plan.bonds, vertex_factor_kind(plan), poll);

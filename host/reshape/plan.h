@@ -13,6 +13,7 @@
 #include "anderson.h"
 #include "block_system.h"
 #include "given.h"
+#include "holds.h"
 #include "measures.h"
 #include "multilevel.h"
 #include "pool.h"
@@ -21,6 +22,7 @@
 #include "surface.h"
 #include "swage/reshape.h"
 #include "swage/scaffold.h"
+#include "tie.h"
 
 namespace swage {
 
@@ -30,34 +32,12 @@ struct StraightTriple {
   int edge_before, edge_after;
 };
 
-/// Vertices that are joined without a triangle: weight |sum of factor * vertex - rest|². Factors are of sum 0.
-struct Tie {
-  std::vector<std::pair<int, double>> factors;
-  Eigen::RowVector3d rest;
-  double weight;
-};
-
 /// What vertices are to each other besides edges of triangles. In the unit box.
 struct Bonds {
   std::vector<StraightTriple> straight = {};
   double straightness_weight = 0;
   double firm_length = 0;  ///< Chains are no firmer where their edges are shorter.
   std::vector<Tie> ties = {};
-};
-
-/// A point, made of up to three vertices, and where it is held.
-struct Hold {
-  std::array<int, 3> vertices;
-  Eigen::Vector3d factors;  ///< Of sum 1. A vertex by itself is the first, with factor 1.
-  Eigen::RowVector3d target;
-  double share = 1;  ///< Of the weight of its Holds.
-
-  static Hold at(int vertex, const Eigen::RowVector3d& target, double share = 1) {
-    return {{vertex, vertex, vertex}, {1, 0, 0}, target, share};
-  }
-  /// The vertex with most of the point.
-  int vertex() const;
-  Eigen::RowVector3d point(const Positions& positions) const;
 };
 
 /// Points held softly. In the unit box.
@@ -182,7 +162,6 @@ void warn(const ReshapePlan& plan, const Gesture& gesture, ReshapeResult& result
 // check.cpp
 void check_options(const ReshapeOptions& options, const Mesh& mesh);
 void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh);
-void check_surface(const Surface& surface);
 void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh);
 
 // paths.cpp

@@ -1,11 +1,9 @@
 // From any list of triangles to a plan for the surface that is solved.
+#include "as_given.h"
 #include "plan.h"
 
 namespace swage {
 namespace {
-
-// Of the box: vertices nearer than this are one. Files keep six digits.
-constexpr double kSamePlace = 1e-6;
 
 /// The published solver is never another, whatever rounds in another order.
 bool is_worth_an_order(const ReshapeOptions& options, const Mesh& mesh) {
@@ -16,13 +14,12 @@ bool is_worth_an_order(const ReshapeOptions& options, const Mesh& mesh) {
 }  // namespace
 
 std::unique_ptr<ReshapePlan> plan_of(Mesh mesh, const ReshapeOptions& options) {
-  Surface surface = surface_of(mesh, kSamePlace * unit_box(mesh.positions).extent);
-  check_surface(surface);
+  Surface surface = surface_given(mesh, "Reshape");
   const SurfaceCounts counts = surface.counts;
   std::optional<Given> given;
   const bool in_order = is_worth_an_order(options, surface.mesh);
   if (in_order || !surface.is_as_given()) given.emplace(std::move(mesh), surface, in_order);
-  ReshapeOptions own = given ? given->into(options) : options;
+  ReshapeOptions own = given ? into(*given, options) : options;
   if (!own.backend) own.backend = cpu_backend();
   const UnitBox box = unit_box(surface.mesh.positions);
   if (own.find_chains && own.straight_chains.empty()) {

@@ -1,5 +1,6 @@
 #include "alternate.h"
 #include "anderson.h"
+#include "as_given.h"
 #include "coarse.h"
 #include "plan.h"
 #include "stand_in.h"
@@ -8,12 +9,6 @@ namespace swage {
 namespace {
 
 constexpr int kPlainPasses = 2;  // Far from the fixed point, and unlike those after: nothing to learn from.
-
-std::vector<Hold> holds_of(const Gesture& gesture) {
-  std::vector<Hold> holds;
-  for (const auto& [vertex, target] : gesture.targets) holds.push_back(Hold::at(vertex, target.transpose()));
-  return holds;
-}
 
 Holds in_box(std::vector<Hold> holds, const UnitBox& box, double weight) {
   for (Hold& hold : holds) hold.target = (hold.target - box.corner) / box.extent;
@@ -221,13 +216,6 @@ auto in_given_numbers(const ReshapePlan& plan, const Call& call) {
   }
 }
 
-/// Vertices of no triangle that are handles go where they are asked to.
-void place_loose(const Given& given, const Gesture& gesture, ReshapeResult& result) {
-  for (const auto& [vertex, target] : gesture.targets) {
-    if (given.is_loose(vertex)) result.positions.row(vertex) = result.unfinished.row(vertex) = target.transpose();
-  }
-}
-
 const Mesh& given_mesh(const ReshapePlan& plan) { return plan.given ? plan.given->mesh() : plan.mesh; }
 
 ReshapeResult cancelled(const ReshapePlan& plan, const ReshapeResult* start) {
@@ -244,7 +232,10 @@ ReshapeResult solve_as_given(ReshapePlan& plan, const Gesture& gesture, const Re
   check(gesture, given.positions, given.triangles);
   if (start) check_start(*start, plan.options, given);
   ReshapeResult result = solve_holds(plan, holds_of(gesture), start, progress);
-  if (plan.given) place_loose(*plan.given, gesture, result);
+  if (plan.given) {
+    plan.given->place_loose(gesture, result.positions);
+    plan.given->place_loose(gesture, result.unfinished);
+  }
   if (result.report.stop != Termination::cancelled) warn(plan, gesture, result);
   return result;
 }
@@ -259,8 +250,8 @@ ReshapeResult solve_holds(ReshapePlan& plan, const std::vector<Hold>& holds, con
     if (plan.stand_in) return solve_stand_in(plan, given_mesh(plan), holds, start, progress);
     if (!plan.given) return timed_solve(plan, solved, start, progress);
     std::optional<ReshapeResult> from;
-    if (start) from = plan.given->into(*start);
-    return plan.given->back(timed_solve(plan, solved, start ? &*from : nullptr, progress));
+    if (start) from = into(*plan.given, *start);
+    return back(*plan.given, timed_solve(plan, solved, start ? &*from : nullptr, progress));
   });
 }
 

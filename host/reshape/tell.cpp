@@ -5,6 +5,7 @@
 
 #include "coarse.h"
 #include "plan.h"
+#include "warnings.h"
 
 namespace swage {
 namespace {
@@ -52,34 +53,6 @@ std::map<std::string, std::string> paths(const ReshapePlan& plan, const Workspac
           {"start", start}};
 }
 
-void warn_of_shape(const ReshapePlan& plan, Report& report) {
-  const auto warn = [&](int count, const char* one, const char* many, const char* what) {
-    if (count == 0) return;
-    report.warnings.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + ": " + what);
-  };
-  const SurfaceCounts& counts = plan.counts;
-  warn(counts.merged, "vertex is at another's place", "vertices are at others' places",
-       "what is at one place stays so");
-  warn(counts.loose, "vertex has no triangle", "vertices have no triangle", "carried by the nearest surface");
-  warn(counts.repeated, "triangle repeats another", "triangles repeat others", "left out of the solve");
-  warn(counts.collapsed, "triangle has two corners at one place", "triangles have two corners at one place",
-       "left out of the solve");
-  warn(counts.turned, "triangle winds against its neighbours", "triangles wind against their neighbours",
-       "turned for the solve");
-  warn(plan.flat_triangles, "triangle has no area", "triangles have no area", "they go with their neighbours");
-  const Lists& triangles = plan.edges.triangles;
-  int open = 0, crowded = 0;
-  for (int e = 0; e < triangles.size(); ++e) {
-    open += triangles[e].size() == 1 ? 1 : 0;
-    crowded += triangles[e].size() > 2 ? 1 : 0;
-  }
-  warn(open, "edge has one triangle", "edges have one triangle", "the surface ends there");
-  warn(crowded, "edge has more than two triangles", "edges have more than two triangles",
-       "each two of them are neighbours");
-  warn(plan.components == 1 ? 0 : plan.components, "", "components that no triangle joins",
-       "held together where they touch or cross, else joined");
-}
-
 void warn_of_triangles(const ReshapePlan& plan, Report& report) {
   const ShapeQuality& quality = plan.quality;
   if (!has_needles(quality) && !is_uneven(quality)) return;
@@ -89,28 +62,6 @@ void warn_of_triangles(const ReshapePlan& plan, Report& report) {
         << quality.low_angle * 180 / std::numbers::pi << " degrees, the longest edge " << quality.longest_over_mean
         << " times the mean: "
         << (plan.stand_in ? "a remeshed stand-in was solved" : "solved as they are; a remeshed stand-in is better");
-  report.warnings.push_back(words.str());
-}
-
-void warn_of_misses(const Mesh& mesh, const Gesture& gesture, const Positions& positions, Report& report) {
-  constexpr double kFar = 0.01;
-  const double diagonal = box_diagonal(mesh.positions);
-  int count = 0, worst = -1;
-  double most = kFar * diagonal;
-  for (const auto& [vertex, target] : gesture.targets) {
-    const double miss = (positions.row(vertex).transpose() - target).norm();
-    if (miss > kFar * diagonal) ++count;
-    if (miss > most) {
-      most = miss;
-      worst = vertex;
-    }
-  }
-  if (count == 0) return;
-  std::ostringstream words;
-  words.precision(3);
-  words << count << (count == 1 ? " handle" : " handles") << " missed by more than 1 % of the box's diagonal, vertex "
-        << worst << " by " << 100 * most / diagonal
-        << " %: keeping the normals of the surface there resists; move more of it along, or less far";
   report.warnings.push_back(words.str());
 }
 
@@ -129,9 +80,10 @@ void tell(const ReshapePlan& plan, const Iterate& iterate, bool warm, Report& re
 }
 
 void warn(const ReshapePlan& plan, const Gesture& gesture, ReshapeResult& result) {
-  warn_of_shape(plan, result.report);
+  warn_of_shape({plan.counts, plan.edges, plan.flat_triangles, plan.components}, result.report);
   warn_of_triangles(plan, result.report);
-  warn_of_misses(plan.given ? plan.given->mesh() : plan.mesh, gesture, result.positions, result.report);
+  warn_of_misses(plan.given ? plan.given->mesh() : plan.mesh, gesture, result.positions,
+                 "keeping the normals of the surface there resists; move more of it along, or less far", result.report);
 }
 
 }  // namespace swage

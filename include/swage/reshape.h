@@ -18,6 +18,7 @@
 #include "swage/report.h"
 #include "swage/scaffold.h"
 #include "swage/steps.h"
+#include "swage/when.h"
 
 namespace swage {
 
@@ -52,16 +53,6 @@ enum class LinearSolver {
 
 /// "auto", "factor", "multigrid".
 const char* to_string(LinearSolver solver);
-
-/// Whether to do something that not every mesh needs.
-enum class When {
-  automatic,  ///< Where the mesh needs it and it can be had; the report says what was done.
-  never,
-  always,  ///< Throws where it cannot be had.
-};
-
-/// "auto", "never", "always".
-const char* to_string(When when);
 
 /// Weights of the energy's terms (paper section 4), for a mesh scaled into the unit box. Finite, none negative;
 /// handle and regularizer above 0. The defaults are the steady solver's, which takes them as of a mesh of 10,000 equal

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "as_given.h"
 #include "measures.h"
 #include "plan.h"
 #include "shapes.h"
@@ -36,10 +37,8 @@ struct Ordered {
   explicit Ordered(const Mesh& mesh) : surface(surface_of(mesh, 0)), given(mesh, surface, true) {}
 
   Gesture into(const Gesture& gesture) const {
-    std::vector<Hold> holds;
-    for (const auto& [vertex, target] : gesture.targets) holds.push_back(Hold::at(vertex, target.transpose()));
     Gesture result;
-    for (const Hold& hold : given.into(holds)) result.add(hold.vertex(), hold.target.transpose());
+    for (const Hold& hold : given.into(holds_of(gesture))) result.add(hold.vertex(), hold.target.transpose());
     return result;
   }
 };
@@ -51,18 +50,18 @@ TEST(GivenInOrder, IsTheSameProblem) {
   const Mesh& other = ordered.surface.mesh;
   ASSERT_NE(other.positions, problem.mesh.positions);
   Reshape given(problem.mesh.positions, problem.mesh.triangles, problem.options);
-  Reshape solved(other.positions, other.triangles, order.into(problem.options));
+  Reshape solved(other.positions, other.triangles, into(order, problem.options));
   const double tolerance = 1e-7;  // Rounding, over all passes.
 
   const ReshapeResult expected = given.solve(problem.gesture);
-  const ReshapeResult result = order.back(solved.solve(ordered.into(problem.gesture)));
+  const ReshapeResult result = back(order, solved.solve(ordered.into(problem.gesture)));
   EXPECT_EQ(result.report.passes, expected.report.passes);
   EXPECT_LT((result.positions - expected.positions).cwiseAbs().maxCoeff(), tolerance);
   EXPECT_LT((result.unfinished - expected.unfinished).cwiseAbs().maxCoeff(), tolerance);
   EXPECT_LT((result.transforms - expected.transforms).cwiseAbs().maxCoeff(), 1e3 * tolerance);
 
   const Gesture next = test::move_top(problem.mesh, {0.25, 0.6, 0.1});
-  const ReshapeResult dragged = order.back(solved.solve(ordered.into(next), order.into(result)));
+  const ReshapeResult dragged = back(order, solved.solve(ordered.into(next), into(order, result)));
   EXPECT_LT((dragged.positions - given.solve(next, expected).positions).cwiseAbs().maxCoeff(), tolerance);
 }
 
@@ -73,13 +72,13 @@ TEST(GivenInOrder, ComesBackAsItWent) {
   ReshapeResult result;
   result.positions = result.unfinished = problem.mesh.positions;
   result.transforms = Transforms::Random(problem.mesh.triangles.rows(), 9);
-  EXPECT_NE(order.into(result).unfinished, result.unfinished);
-  ReshapeResult there = order.into(result);
+  EXPECT_NE(into(order, result).unfinished, result.unfinished);
+  ReshapeResult there = into(order, result);
   there.positions = there.unfinished;
-  const ReshapeResult back = order.back(there);
-  EXPECT_EQ(back.positions, result.positions);
-  EXPECT_EQ(back.unfinished, result.unfinished);
-  EXPECT_EQ(back.transforms, result.transforms);
+  const ReshapeResult again = back(order, there);
+  EXPECT_EQ(again.positions, result.positions);
+  EXPECT_EQ(again.unfinished, result.unfinished);
+  EXPECT_EQ(again.transforms, result.transforms);
 }
 
 /// The mesh with vertex v as v' and triangle t as t', both the numbers backwards.

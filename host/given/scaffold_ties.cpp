@@ -1,6 +1,5 @@
-#include <string>
+#include "scaffold_ties.h"
 
-#include "links.h"
 #include "scaffold_edges.h"
 #include "swage/error.h"
 
@@ -32,11 +31,10 @@ std::vector<Tie> ties_of(const Scaffold& scaffold, const std::vector<int>& compo
 
 }  // namespace
 
-std::optional<ScaffoldTies> scaffold_ties(const ReshapeOptions& options, const Mesh& unit_mesh,
-                                          const std::vector<int>& component, int contacts, const Poll& poll,
-                                          std::string& why_not) {
-  const bool must = options.scaffold == When::always;
-  if (options.scaffold == When::never) {
+std::optional<ScaffoldTies> scaffold_ties(When when, const Mesh& unit_mesh, const std::vector<int>& component,
+                                          int contacts, const Poll& poll, std::string& why_not) {
+  const bool must = when == When::always;
+  if (when == When::never) {
     why_not = "not wanted";
     return std::nullopt;
   }

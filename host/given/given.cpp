@@ -1,10 +1,12 @@
 #include "given.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "measures.h"
 #include "nearest.h"
-#include "plan.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -69,15 +71,11 @@ void Given::find_stand_ins(const Mesh& surface) {
   }
 }
 
-ReshapeOptions Given::into(ReshapeOptions options) const {
-  if (options.unit_box_curvatures) {
-    options.unit_box_curvatures = Curvatures((*options.unit_box_curvatures)(triangles_, Eigen::all));
-  }
-  for (std::vector<int>& chain : options.straight_chains) {
-    for (int& vertex : chain) vertex = vertex_of_[static_cast<size_t>(vertex)];
-    chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
-  }
-  return options;
+std::vector<int> Given::into(const std::vector<int>& chain) const {
+  std::vector<int> result;
+  for (const int vertex : chain) result.push_back(vertex_of_[static_cast<size_t>(vertex)]);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
 }
 
 std::vector<Hold> Given::into(const std::vector<Hold>& holds) const {
@@ -104,13 +102,6 @@ std::vector<Hold> Given::at_feet(const std::vector<Hold>& holds) const {
   return result;
 }
 
-ReshapeResult Given::into(const ReshapeResult& start) const {
-  ReshapeResult result;
-  result.unfinished = start.unfinished(vertices_, Eigen::all);
-  result.transforms = start.transforms(triangles_, Eigen::all);
-  return result;
-}
-
 Eigen::RowVector3d Given::aside(int v) const {
   return mesh_.positions.row(v) - mesh_.positions.row(vertex(vertex_of_[static_cast<size_t>(v)]));
 }
@@ -130,28 +121,33 @@ Positions Given::back(const Positions& positions, const Transforms& transforms) 
   return given;
 }
 
-ReshapedScaffold Given::back(const ReshapedScaffold& solved, const Positions& positions) const {
-  const auto surface = static_cast<int>(vertices_.size());
-  const Eigen::Index own = solved.positions.rows() - surface;
-  ReshapedScaffold given{Positions(positions.rows() + own, 3), solved.tetrahedra};
-  given.positions << positions, solved.positions.bottomRows(own);
-  const auto first_own = static_cast<int>(positions.rows());
-  given.tetrahedra =
-      solved.tetrahedra.unaryExpr([&](int v) { return v < surface ? vertex(v) : first_own + v - surface; });
+Tetrahedra Given::back(const Tetrahedra& tetrahedra) const {
+  const auto surface = static_cast<int>(vertices_.size()), first_own = static_cast<int>(mesh_.positions.rows());
+  return tetrahedra.unaryExpr([&](int v) { return v < surface ? vertex(v) : first_own + v - surface; });
+}
+
+Transforms Given::back(const Transforms& transforms) const {
+  Transforms given = Transforms::Zero(mesh_.triangles.rows(), 9);
+  given(Eigen::all, {0, 4, 8}).setOnes();
+  for (size_t t = 0; t < triangle_of_.size(); ++t) {
+    if (triangle_of_[t] >= 0) given.row(static_cast<Eigen::Index>(t)) = transforms.row(triangle_of_[t]);
+  }
   return given;
 }
 
-ReshapeResult Given::back(const ReshapeResult& solved) const {
-  ReshapeResult result = solved;
-  result.positions = back(solved.positions, solved.transforms);
-  result.unfinished = back(solved.unfinished, solved.transforms);
-  if (solved.scaffold) result.scaffold = back(*solved.scaffold, result.positions);
-  result.transforms = identities(mesh_.triangles.rows());
-  for (size_t t = 0; t < triangle_of_.size(); ++t) {
-    if (triangle_of_[t] >= 0)
-      result.transforms.row(static_cast<Eigen::Index>(t)) = solved.transforms.row(triangle_of_[t]);
+void Given::place_loose(const Gesture& gesture, Positions& positions) const {
+  for (const auto& [vertex, target] : gesture.targets) {
+    if (is_loose(vertex)) positions.row(vertex) = target.transpose();
   }
-  return result;
+}
+
+Surface surface_given(const Mesh& mesh, const char* caller) {
+  constexpr double kSamePlace = 1e-6;  // Of the box. Files keep six digits.
+  Surface surface = surface_of(mesh, kSamePlace * unit_box(mesh.positions).extent);
+  const Positions areas = area_vectors(surface.mesh.positions, surface.mesh.triangles);
+  if (areas.rows() > 0 && areas.squaredNorm() > 0) return surface;
+  throw InvalidInput(std::string(caller) + ": triangles: none of " + std::to_string(surface.triangle_of.size()) +
+                     " has any area: there is no surface; check the mesh's units and coordinates");
 }
 
 }  // namespace swage

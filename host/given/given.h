@@ -6,13 +6,13 @@
 #include <array>
 #include <vector>
 
+#include "holds.h"
 #include "numbering.h"
 #include "surface.h"
-#include "swage/reshape.h"
+#include "swage/backend.h"
+#include "swage/scaffold.h"
 
 namespace swage {
-
-struct Hold;
 
 /// "In" and "into" lead to the surface, "back" to what the caller gave.
 class Given {
@@ -22,13 +22,22 @@ class Given {
 
   const Mesh& mesh() const { return mesh_; }
 
-  ReshapeOptions into(ReshapeOptions options) const;
   /// Without those of vertices that no triangle has; where all are, of the surface nearest to these.
   std::vector<Hold> into(const std::vector<Hold>& holds) const;
-  /// What a solve reads of its start.
-  ReshapeResult into(const ReshapeResult& start) const;
-  ReshapeResult back(const ReshapeResult& result) const;
+  std::vector<int> into(const std::vector<int>& chain) const;
+  /// Vertices of no triangle go by the transforms of the surface's triangles. Those at one place are there to a
+  /// tolerance only.
+  Positions back(const Positions& positions, const Transforms& transforms) const;
+  /// #T × 9.
+  Transforms back(const Transforms& transforms) const;
+  /// Those of a scaffold, whose own points follow the surface's vertices, and then the mesh's as given.
+  Tetrahedra back(const Tetrahedra& tetrahedra) const;
+  /// Vertices of no triangle that are handles go where they are asked to.
+  void place_loose(const Gesture& gesture, Positions& positions) const;
 
+  /// Of each vertex and triangle of the surface the number as given.
+  const std::vector<int>& vertices() const { return vertices_; }
+  const std::vector<int>& triangles() const { return triangles_; }
   int vertex(int solved) const { return vertices_[static_cast<size_t>(solved)]; }
   int triangle(int solved) const { return triangles_[static_cast<size_t>(solved)]; }
   bool is_loose(int vertex) const { return vertex_of_[static_cast<size_t>(vertex)] < 0; }
@@ -42,9 +51,6 @@ class Given {
   };
 
   std::vector<Hold> at_feet(const std::vector<Hold>& holds) const;
-  Positions back(const Positions& positions, const Transforms& transforms) const;
-  ReshapedScaffold back(const ReshapedScaffold& solved, const Positions& positions) const;
-  /// Vertices at one place are there to a tolerance only.
   Eigen::RowVector3d aside(int vertex) const;
   void list_loose(const Mesh& surface);
   void find_stand_ins(const Mesh& surface);
@@ -55,5 +61,9 @@ class Given {
                                               ///< not there one beside them, or -1.
   std::vector<Loose> loose_;                  ///< Vertices of no triangle, by the nearest point of the surface.
 };
+
+/// The surface of any list of triangles. Vertices nearer than what the digits of files keep are one. Throws
+/// InvalidInput, naming the `caller`, where no triangle has an area.
+Surface surface_given(const Mesh& mesh, const char* caller);
 
 }  // namespace swage
