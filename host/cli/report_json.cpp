@@ -10,6 +10,7 @@
 
 #include "adjacency.h"
 #include "changes.h"
+#include "deform.h"
 #include "measures.h"
 #include "swage/error.h"
 
@@ -38,7 +39,7 @@ void add_run(Json& json, const ReshapeJob& job, const Mesh& mesh, const Backend&
   json["triangles"] = mesh.triangles.rows();
   json["components"] = component_count(mesh);
   json["method"] = job.method;
-  json["solver"] = job.solver;
+  if (!deform_method(job.method)) json["solver"] = job.solver;
   json["backend"] = backend.name();
   json["device"] = backend.device();
   json["precision"] = backend.precision() == Precision::single ? "single" : "double";

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "backend_choice.h"
+#include "deform.h"
 #include "failure.h"
 #include "interrupt.h"
 #include "progress_bar.h"
@@ -50,7 +51,21 @@ ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const Bac
   return options;
 }
 
-ReshapeResult solve(const Mesh& mesh, const Gesture& gesture, const ReshapeOptions& options,
+/// Prepares and solves, by Reshape or Deform.
+template <class Plan>
+auto timed(Plan plan, const Gesture& gesture, const ProgressFn& progress, RunSeconds& seconds) {
+  const Stopwatch precompute;
+  plan.prepare(progress);
+  seconds.precompute = precompute.seconds();
+  stop_if_interrupted();
+  const Stopwatch solve;
+  auto result = plan.solve(gesture, progress);
+  seconds.solve = solve.seconds();
+  stop_if_interrupted();
+  return result;
+}
+
+ReshapeResult solve(const ReshapeJob& job, const Mesh& mesh, const Gesture& gesture, const ReshapeOptions& options,
                     const CommonOptions& common, RunSeconds& seconds) {
   ProgressBar bar(!common.quiet && !common.verbose);
   const ProgressFn progress = [&](const Progress& now) {
@@ -58,29 +73,25 @@ ReshapeResult solve(const Mesh& mesh, const Gesture& gesture, const ReshapeOptio
     spdlog::debug("{} {}: energy {}", now.stage, now.pass, now.energy);
     return !interrupted();
   };
-  const Stopwatch precompute;
-  Reshape plan(mesh.positions, mesh.triangles, options);
-  plan.prepare(progress);
-  seconds.precompute = precompute.seconds();
-  stop_if_interrupted();
-  const Stopwatch solve;
-  ReshapeResult result = plan.solve(gesture, progress);
-  seconds.solve = solve.seconds();
-  stop_if_interrupted();
-  return result;
+  if (const std::optional<DeformMethod> method = deform_method(job.method)) {
+    const DeformOptions own = deform_options(job, *method, options);
+    return as_reshaped(timed(Deform(mesh.positions, mesh.triangles, own), gesture, progress, seconds));
+  }
+  return timed(Reshape(mesh.positions, mesh.triangles, options), gesture, progress, seconds);
 }
 
 /// A device that `auto` chose may turn out too small.
-ReshapeResult solve_or_fall_back(const Mesh& mesh, const Gesture& gesture, ReshapeOptions& options,
-                                 const CommonOptions& common, RunSeconds& seconds, const BackendChoice& choice) {
+ReshapeResult solve_or_fall_back(const ReshapeJob& job, const Mesh& mesh, const Gesture& gesture,
+                                 ReshapeOptions& options, const CommonOptions& common, RunSeconds& seconds,
+                                 const BackendChoice& choice) {
   try {
-    return solve(mesh, gesture, options, common, seconds);
+    return solve(job, mesh, gesture, options, common, seconds);
   } catch (const Unavailable& reason) {
     if (!choice.is_auto() || options.backend->name() == "cpu") throw;
     spdlog::warn("the cpu does the local steps: {}", reason.what());
   }
   options.backend = cpu_backend();
-  return solve(mesh, gesture, options, common, seconds);
+  return solve(job, mesh, gesture, options, common, seconds);
 }
 
 void write_result(const std::string& path, const ReshapeJob& job, const MeshFile& file, const Positions& positions) {
@@ -107,6 +118,7 @@ void check_method(const ReshapeJob& job) {
   if (linear_solver(job.linear_solver) == LinearSolver::multigrid && job.solver == "published") {
     throw WrongUsage("--linear-solver multigrid does not go with --solver published, which factors: leave one out");
   }
+  check_deform_job(job);
   check_finding(job.straight, job.finding);
 }
 
@@ -141,10 +153,16 @@ void add_reshape_options(CLI::App& app, ReshapeJob& job) {
   app.add_option("-o,--output", job.output, "Result mesh, format by extension; - for stdout")->type_name("FILE");
   app.add_option("--json", job.json, "Report of the run; - for stdout")->type_name("FILE");
   const std::string group = "Method";
-  app.add_option("--method", job.method,
-                 "slippage: as the paper; alup: its forerunner, scales uniformly where it can (slippage)")
+  app.add_option(
+         "--method", job.method,
+         "slippage: as the paper; alup: its forerunner, scales uniformly where it can; to compare with: poisson, "
+         "arap, arap-volume, conformal (slippage)")
       ->group(group)
-      ->check(CLI::IsMember({"slippage", "alup"}));
+      ->check(CLI::IsMember({"slippage", "alup", "poisson", "arap", "arap-volume", "conformal"}));
+  app.add_option("--handle-weight", job.handle_weight,
+                 "Handles are held softly, by this weight in the unit box: poisson, arap, arap-volume, conformal")
+      ->group(group)
+      ->check(between(1e-9, 1e15));
   app.add_option("--solver", job.solver, "steady: whatever the resolution; published: as in the paper (steady)")
       ->group(group)
       ->check(CLI::IsMember({"steady", "published"}));
@@ -197,7 +215,7 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   seconds.read = read.seconds();
   stop_if_interrupted();
 
-  ReshapeResult result = solve_or_fall_back(file.mesh, gesture, options, common, seconds, choice);
+  ReshapeResult result = solve_or_fall_back(job, file.mesh, gesture, options, common, seconds, choice);
   for (const std::string& warning : result.report.warnings) spdlog::warn("{}", warning);
 
   const Stopwatch write;

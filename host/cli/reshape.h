@@ -1,6 +1,7 @@
 // `swage reshape` and the part of it that `swage demo` shares.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gesture_options.h"
@@ -23,7 +24,8 @@ struct ReshapeJob {
   double feature_angle = 105;  ///< Interior dihedral angle, degrees.
   bool no_finalise = false;
   std::string remesh = "auto", scaffold = "auto";
-  std::string scaffold_mesh;  ///< For the tetrahedra; empty for nowhere.
+  std::optional<double> handle_weight;  ///< Of the methods compared with; handles are met exactly where none is given.
+  std::string scaffold_mesh;            ///< For the tetrahedra; empty for nowhere.
 };
 
 /// Reads, solves, then writes. Throws before anything is written.

@@ -136,6 +136,40 @@ TEST_F(Reshaping, TheLinearSolverIsAsAskedAndToldWithItsReason) {
   EXPECT_NE(refused.err.find("--linear-solver"), std::string::npos) << refused.err;
 }
 
+TEST_F(Reshaping, TheMethodsToCompareWithMeetTheHandlesAndReport) {
+  for (const char* method : {"poisson", "arap", "arap-volume", "conformal"}) {
+    const Outcome outcome = reshape({"--json", "-", "-o", result_.string(), "--method", method});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json report = json::parse(outcome.out);
+    EXPECT_EQ(report["method"], method);
+    EXPECT_FALSE(report.contains("solver"));
+    EXPECT_LT(report["handle_error"], 1e-9) << method;
+    EXPECT_EQ(report["stop"], "moved") << method;
+    EXPECT_GT(report["memory_mb_by_part"]["factor"], 0);
+    EXPECT_NE(read_mesh(result_).mesh.positions, read_mesh(box_).mesh.positions);
+    const json soft = json::parse(reshape({"--json", "-", "--method", method, "--handle-weight", "1"}).out);
+    EXPECT_GT(soft["handle_error"], 1e-6) << method;
+  }
+}
+
+TEST_F(Reshaping, OptionsThatAMethodHasNoUseForAreRefused) {
+  for (const Arguments& unused : std::vector<Arguments>{{"--solver", "published"},
+                                                        {"--linear-solver", "factor"},
+                                                        {"--no-finalise"},
+                                                        {"--remesh", "always"},
+                                                        {"--feature-angle", "90"},
+                                                        {"--straight", "auto"}}) {
+    Arguments arguments{"--json", "-", "--method", "arap"};
+    arguments.insert(arguments.end(), unused.begin(), unused.end());
+    const Outcome outcome = reshape(arguments);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find(unused[0] + " "), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(reshape({"--json", "-", "--handle-weight", "10"}).code, 2);
+  EXPECT_EQ(reshape({"--json", "-", "--method", "arap", "--handle-weight", "0"}).code, 2);
+  EXPECT_EQ(reshape({"--json", "-", "--method", "laplace"}).code, 2);
+}
+
 TEST_F(Reshaping, AReportAddsUp) {
   const json report = json::parse(reshape({"--json", "-"}).out);
   double energy = 0, seconds = 0;

@@ -1,0 +1,103 @@
+// All that depends on the rest shape alone.
+#include <algorithm>
+#include <utility>
+
+#include "flat.h"
+#include "inside.h"
+#include "join.h"
+#include "plan.h"
+
+namespace swage {
+namespace {
+
+/// The tetrahedra within the mesh, and their vertices behind `vertices`, of which the mesh's are the first.
+Tetrahedra filling(const DeformPlan& plan, const Mesh& unit_mesh, Positions& vertices, const Poll& poll) {
+  ScaffoldOptions options;
+  options.leave_out_crossing = true;
+  options.time_limit = plan.options.filling_time_limit;
+  const Scaffold all = scaffold(unit_mesh.positions, unit_mesh.triangles, options, [&](const Progress&) {
+    ask(poll);
+    return true;
+  });
+  const std::vector<char> inside = are_inside(unit_mesh, all.positions, all.tetrahedra, poll);
+  std::vector<int> within;
+  for (int t = 0; t < all.tetrahedra.rows(); ++t) {
+    if (inside[static_cast<size_t>(t)] != 0) within.push_back(t);
+  }
+  const auto own = static_cast<int>(unit_mesh.positions.rows()), joined = static_cast<int>(vertices.rows());
+  const Eigen::Index further = all.positions.rows() - own;
+  vertices.conservativeResize(joined + further, 3);
+  vertices.bottomRows(further) = all.positions.bottomRows(further);
+  return all.tetrahedra(within, Eigen::all).unaryExpr([&](int v) { return v < own ? v : joined + v - own; });
+}
+
+Elements elements_of(DeformPlan& plan, const Mesh& unit_mesh, const std::vector<char>& is_flat, Positions& vertices,
+                     const Poll& poll) {
+  switch (plan.options.method) {
+    case DeformMethod::poisson:
+      return triangle_elements(unit_mesh, 1 / plan.mean_edge_length);
+    case DeformMethod::arap:
+    case DeformMethod::conformal:
+      return vertex_elements(unit_mesh, is_flat);
+    case DeformMethod::arap_volume:
+      break;
+  }
+  const Tetrahedra within = filling(plan, unit_mesh, vertices, poll);
+  plan.told_filling = std::to_string(within.rows()) + " tetrahedra within";
+  return tetrahedron_elements(vertices, within, unit_mesh.triangles, is_flat, plan.mean_edge_length);
+}
+
+void make(DeformPlan& plan, const ProgressFn& progress) {
+  Progress now{"", 0, plan.options.pass_limit, 0, 0};
+  const auto asked = [&] { return !progress || progress(now); };
+  const auto begin = [&](const char* stage, double part) {
+    now.stage = stage;
+    now.fraction = part * kPrepared;
+    if (!asked()) throw Cancelled();
+  };
+  const Poll poll = sparing(asked);
+  const Stopwatch watch(plan.prepare_seconds);
+  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
+  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
+  plan.components = 1 + *std::max_element(component.begin(), component.end());
+  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
+  plan.mean_edge_length = mean_edge_length(unit_mesh.positions, unit_mesh.triangles);
+  begin("components", 0);
+  const Joined joined = join_components(unit_mesh, plan.edges, plan.options.scaffold, poll);
+  plan.told_components = joined.told;
+  Positions vertices = joined.scaffold ? joined.scaffold->positions : unit_mesh.positions;
+  begin("elements", 0.2);
+  plan.elements = elements_of(plan, unit_mesh, is_flat, vertices, poll);
+  add_ties(vertices, joined.ties, plan.mean_edge_length, plan.elements);
+  begin("system", 0.7);
+  plan.system = global_system(plan.elements.pairs);
+  plan.prepared = true;
+}
+
+}  // namespace
+
+std::unique_ptr<DeformPlan> plan_of(Mesh mesh, const DeformOptions& options) {
+  Surface surface = surface_given(mesh, "Deform");
+  const SurfaceCounts counts = surface.counts;
+  std::optional<Given> given;
+  if (!surface.is_as_given()) given.emplace(std::move(mesh), surface, false);
+  DeformOptions own = options;
+  if (!own.backend) own.backend = cpu_backend();
+  const UnitBox box = unit_box(surface.mesh.positions);
+  return std::unique_ptr<DeformPlan>(
+      new DeformPlan{std::move(own), std::move(given), std::move(surface.mesh), counts, box, std::move(surface.edges)});
+}
+
+bool prepare(DeformPlan& plan, const ProgressFn& progress) {
+  const std::lock_guard lock(plan.preparing);
+  if (plan.prepared) return true;
+  try {
+    make(plan, progress);
+    return true;
+  } catch (const Cancelled&) {
+    return false;
+  }
+}
+
+}  // namespace swage
