@@ -48,20 +48,20 @@ class Placing {
   void add_cells(const std::vector<Panel>& panels, int columns, double height) {
     const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
     const double width = room() / columns, row_height = height / rows;
-    const auto [above, below] = lines_of(panels);
+    const auto [title, caption] = lines_of(panels);
     std::vector<PixelBox>& boxes = layout_.panels.emplace_back();
     for (size_t i = 0; i < panels.size(); ++i) {
       const int row = static_cast<int>(i) / columns, column = static_cast<int>(i) % columns;
       const double x = kEdge * layout_.unit + column * width, y = y_ + row * row_height, gap = kGap * layout_.unit;
       add_writing({panels[i].title, {x + width / 2, y}, kPanelTitle, width - 2 * gap, true, false});
-      add_writing({panels[i].caption, {x + width / 2, y + row_height - below}, kCaption, width - 2 * gap, true, true});
-      boxes.push_back({pixels(x + gap), pixels(y + above), std::max(1, pixels(width - 2 * gap)),
-                       std::max(1, pixels(row_height - above - below))});
+      add_writing({panels[i].caption, {x + width / 2, y + title}, kCaption, width - 2 * gap, true, true});
+      boxes.push_back({pixels(x + gap), pixels(y + title + caption), std::max(1, pixels(width - 2 * gap)),
+                       std::max(1, pixels(row_height - title - caption))});
     }
     y_ += height;
   }
 
-  /// Heights that titles above and captions below take of a cell, pixels.
+  /// Heights that titles and captions take of a cell, pixels.
   std::pair<double, double> lines_of(const std::vector<Panel>& panels) const {
     const auto any = [&](std::string Panel::*text) {
       return std::any_of(panels.begin(), panels.end(), [&](const Panel& panel) { return !(panel.*text).empty(); });
@@ -102,14 +102,14 @@ class Placing {
 
 /// As many as make what is shown largest.
 int best_columns(const GroupShape& group, const Placing& placing, double height) {
-  const auto [above, below] = placing.lines_of(group.panels);
+  const auto [title, caption] = placing.lines_of(group.panels);
   const auto count = static_cast<int>(group.panels.size());
   int best = 1;
   double largest = -1e9;
   for (int columns = 1; columns <= count; ++columns) {
     const int rows = (count + columns - 1) / columns;
     const double scale =
-        std::min(placing.room() / columns / group.extent.x(), (height / rows - above - below) / group.extent.y());
+        std::min(placing.room() / columns / group.extent.x(), (height / rows - title - caption) / group.extent.y());
     if (scale > largest * (1 + 1e-9)) {
       largest = scale;
       best = columns;

@@ -9,7 +9,9 @@ namespace {
 
 constexpr float kAmbientReach = 0.35F;  // In unit boxes: nearer than that, a surface casts shadow.
 constexpr float kOffSurface = 2e-4F;    // Rays start that far off what they shall not meet.
-constexpr int kPatterns = 16;
+constexpr float kBrightest = 1.1F;
+constexpr float kHeatShade = 0.6F;  // Of what shading takes from colours, where they mean something.
+constexpr int kPatterns = 64;
 
 float fraction(double value) { return static_cast<float>(value - std::floor(value)); }
 
@@ -17,9 +19,9 @@ float fraction(double value) { return static_cast<float>(value - std::floor(valu
 float lit(const Eigen::Vector3f& normal, float ambience) {
   static const Eigen::Vector3f key = Eigen::Vector3f(-0.45F, 0.70F, 0.65F).normalized();
   static const Eigen::Vector3f fill = Eigen::Vector3f(0.85F, 0.05F, 0.50F).normalized();
-  const float sky = 0.38F + 0.10F * normal.y();
+  const float sky = 0.44F + 0.08F * normal.y();
   // Light from one side is blocked less than that from all.
-  return sky * ambience + (0.48F * std::max(0.0F, normal.dot(key)) + 0.16F * std::max(0.0F, normal.dot(fill))) *
+  return sky * ambience + (0.38F * std::max(0.0F, normal.dot(key)) + 0.16F * std::max(0.0F, normal.dot(fill))) *
                               (0.35F + 0.65F * ambience);
 }
 
@@ -46,11 +48,14 @@ std::vector<Ray> Ambience::rays_from(const Eigen::Vector3f& point, const Eigen::
   return rays;
 }
 
-float light_at(const Camera& camera, const Eigen::Vector3f& normal, float ambience) {
+float light_at(const SurfaceView& view, const Eigen::Vector3f& normal, float ambience) {
   static const float facing = lit(Eigen::Vector3f::UnitZ(), 1);
+  const Camera& camera = view.camera;
   const Eigen::Vector3f seen(camera.right.cast<float>().dot(normal), camera.up.cast<float>().dot(normal),
                              camera.toward.cast<float>().dot(normal));
-  return std::min(1.12F, lit(seen, ambience) / facing);
+  const float light = lit(seen, ambience) / facing;
+  return view.scene.is_heat_map ? std::min(1.0F, 1 - kHeatShade * (1 - light))
+                                : std::min(kBrightest, light > 1 ? (1 + light) / 2 : light);
 }
 
 }  // namespace swage

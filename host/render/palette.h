@@ -10,7 +10,7 @@ using Colour = Eigen::Vector3f;
 namespace palette {
 
 inline const Colour kPaper(1, 1, 1);
-inline const Colour kSurface(0.80F, 0.83F, 0.87F);
+inline const Colour kSurface(0.80F, 0.825F, 0.855F);
 inline const Colour kUnknown(0.58F, 0.58F, 0.58F);
 inline const Colour kLine(0.13F, 0.15F, 0.19F);
 inline const Colour kText(0.10F, 0.11F, 0.13F);

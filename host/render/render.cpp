@@ -107,7 +107,7 @@ bool draw_panel(Image& image, const PanelTask& task, const RenderOptions& option
   const RenderScene scene = scene_of(task.panel, task.framing.box, options.feature_angle, heat);
   Camera camera = task.framing.camera;
   camera.scale = task.scale;
-  const double outline = options.feature_lines ? 1.1 * task.unit : 0;
+  const double outline = options.feature_lines ? 1.5 * task.unit : 0;
   const SurfaceView view{scene, camera, task.box, options.supersampling, options.ambient_rays, outline};
   long covered = 0;
   if (!draw_surface(image, view, covered, watch.part(0.1, 0.9))) return false;

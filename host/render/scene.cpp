@@ -112,6 +112,7 @@ RenderScene scene_of(const Panel& panel, const UnitBox& box, double feature_angl
   scene.rays = std::make_unique<RayScene>(surface.mesh.positions, surface.mesh.triangles);
   for (const auto& normal : normals.rowwise()) scene.normals.push_back(normal.transpose().cast<float>());
   scene.corner_normals = corner_normals(surface, normals, kinds.smooth);
+  scene.is_heat_map = panel.face_values.size() > 0;
   scene.colours = colours_of(panel, surface, heat);
   for (const int e : kinds.lines) scene.lines.push_back({surface.edges.vertices(e, 0), surface.edges.vertices(e, 1)});
   scene.mesh = std::move(surface.mesh);

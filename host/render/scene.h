@@ -19,7 +19,8 @@ struct RenderScene {
   std::vector<Eigen::Vector3f> normals;         ///< A triangle, unit; zero where it has no area.
   std::vector<Eigen::Vector3f> corner_normals;  ///< Three a triangle: the mean over what is smooth around a vertex.
   std::vector<Colour> colours;                  ///< A triangle.
-  std::vector<std::array<int, 2>> lines;        ///< Edges that are creases or boundaries, by their vertices.
+  bool is_heat_map = false;
+  std::vector<std::array<int, 2>> lines;  ///< Edges that are creases or boundaries, by their vertices.
 };
 
 RenderScene scene_of(const Panel& panel, const UnitBox& box, double feature_angle, const HeatMap& heat);

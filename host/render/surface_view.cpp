@@ -5,7 +5,7 @@
 namespace swage {
 namespace {
 
-constexpr int kTile = 64;
+constexpr int kTile = 96;
 constexpr int kTilesATime = 64;
 
 /// The pixels of the view in which the surface may be.

@@ -23,7 +23,7 @@ struct SurfaceView {
 bool draw_surface(Image& image, const SurfaceView& view, long& covered, const Watch& watch);
 
 /// From cosine-weighted rays out of a point of a surface, the part that meets none of it within reach.
-/// `pattern` in [0, 16) says which rays: the patterns together are evenly spread.
+/// `pattern` in [0, 64) says which rays: the patterns together are evenly spread.
 class Ambience {
  public:
   explicit Ambience(int rays);
@@ -35,7 +35,7 @@ class Ambience {
 };
 
 /// What a colour is multiplied with where the surface has this normal, towards the eye, and ambience in [0, 1]: 1 where
-/// it faces the eye openly, at most a little more.
-float light_at(const Camera& camera, const Eigen::Vector3f& normal, float ambience);
+/// it faces the eye openly; a plain surface may be a little lighter elsewhere, a heat map's shades are milder.
+float light_at(const SurfaceView& view, const Eigen::Vector3f& normal, float ambience);
 
 }  // namespace swage

@@ -5,7 +5,7 @@
 namespace swage {
 namespace {
 
-constexpr int kMargin = 2;           // Pixels: as far as shadows are evened out over, and outlines are wide.
+constexpr int kMargin = 4;           // Pixels: as far as shadows are evened out over, and outlines are wide.
 constexpr float kJump = 0.006F;      // In unit boxes: what lies farther behind is outlined against.
 constexpr float kOutlineInk = 0.8F;  // Of the colour of lines.
 
@@ -71,7 +71,7 @@ void Tile::find_ambience(const Ambience& ambience) {
       Open& open = open_[static_cast<size_t>(y * outer_.width + x)];
       open.at = first_sample(x, y);
       if (!open.at || view_.ambient_rays == 0) continue;
-      const int pattern = ((outer_.y + y) & 3) * 4 + ((outer_.x + x) & 3);
+      const int pattern = ((outer_.y + y) & 7) * 8 + ((outer_.x + x) & 7);
       const std::vector<Ray> more = ambience.rays_from(open.at->point, open.at->flat, pattern);
       rays.insert(rays.end(), more.begin(), more.end());
       owners.push_back(&open);
@@ -85,16 +85,18 @@ void Tile::find_ambience(const Ambience& ambience) {
   }
 }
 
+/// Whether two samples, a few pixels apart, lie on the same part of the surface.
+bool Tile::are_alike(const Sample& a, const Sample& b) const {
+  return a.flat.dot(b.flat) > 0.8F && std::abs((a.point - b.point).dot(b.flat)) < 8 * pixel_;
+}
+
 /// The mean over the pixels around, each of another pattern, that lie on the same part of the surface.
 float Tile::ambience_at(const Sample& sample, int x, int y) const {
   float sum = 0, weights = 0;
-  for (int py = std::max(0, y - 2); py < std::min(outer_.height, y + 2); ++py) {
-    for (int px = std::max(0, x - 2); px < std::min(outer_.width, x + 2); ++px) {
+  for (int py = y - kMargin; py < y + kMargin; ++py) {
+    for (int px = x - kMargin; px < x + kMargin; ++px) {
       const Open& open = open_[static_cast<size_t>(py * outer_.width + px)];
-      if (!open.at) continue;
-      const float alike = open.at->flat.dot(sample.flat);
-      const float off = std::abs((open.at->point - sample.point).dot(sample.flat));
-      if (alike < 0.8F || off > 4 * pixel_) continue;
+      if (!open.at || !are_alike(*open.at, sample)) continue;
       sum += open.part;
       weights += 1;
     }
@@ -131,12 +133,14 @@ bool Tile::is_outline(int x, int y) const {
   return false;
 }
 
-Colour Tile::colour_of(int x, int y) const {
+/// `middle` is the pixel's sample whose ambience is known.
+Colour Tile::colour_of(int x, int y, const Open& middle) const {
   const Sample& here = sample(x, y);
   if (here.triangle < 0) return palette::kPaper;
-  const float open = ambience_at(here, x / view_.supersampling, y / view_.supersampling);
+  const float open =
+      are_alike(*middle.at, here) ? middle.part : ambience_at(here, x / view_.supersampling, y / view_.supersampling);
   const Colour& own = view_.scene.colours[static_cast<size_t>(here.triangle)];
-  const Colour seen = (own * light_at(view_.camera, here.normal, open)).cwiseMin(1);
+  const Colour seen = (own * light_at(view_, here.normal, open)).cwiseMin(1);
   return is_outline(x, y) ? Colour((1 - kOutlineInk) * seen + kOutlineInk * palette::kLine) : seen;
 }
 
@@ -145,10 +149,12 @@ long Tile::paint(Image& image) const {
   long covered = 0;
   for (int y = kMargin; y < kMargin + inner_.height; ++y) {
     for (int x = kMargin; x < kMargin + inner_.width; ++x) {
-      if (!open_[static_cast<size_t>(y * outer_.width + x)].at) continue;
+      const Sample* first = open_[static_cast<size_t>(y * outer_.width + x)].at;
+      if (!first) continue;
       ++covered;
+      const Open middle{first, ambience_at(*first, x, y)};
       Colour sum = Colour::Zero();
-      for (int k = 0; k < side * side; ++k) sum += colour_of(x * side + k % side, y * side + k / side);
+      for (int k = 0; k < side * side; ++k) sum += colour_of(x * side + k % side, y * side + k / side, middle);
       blend(image, view_.box.x + outer_.x + x, view_.box.y + outer_.y + y, sum / static_cast<float>(side * side), 1);
     }
   }

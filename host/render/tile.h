@@ -36,11 +36,12 @@ class Tile {
   Sample sample_of(const Ray& ray, const RayHit& hit) const;
   const Sample& sample(int x, int y) const { return samples_[static_cast<size_t>(y * columns_ + x)]; }
   const Sample* first_sample(int x, int y) const;
+  bool are_alike(const Sample& a, const Sample& b) const;
   float ambience_at(const Sample& sample, int x, int y) const;
   float slope(const Sample& sample, int x, int y) const;
   bool is_before(const Sample& sample, int x, int y, int dx, int dy) const;
   bool is_outline(int x, int y) const;
-  Colour colour_of(int x, int y) const;
+  Colour colour_of(int x, int y, const Open& middle) const;
 
   const SurfaceView& view_;
   PixelBox inner_, outer_;  ///< Pixels of the panel; the outer ones may lie beyond it.

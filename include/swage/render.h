@@ -29,7 +29,7 @@ struct Panel {
   std::string title;  ///< UTF-8, above it.
   std::vector<HandleMark> handles;
   Eigen::VectorXd face_values;  ///< #T, as colours of HeatMap, NaN in grey; empty for a plain surface.
-  std::string caption;          ///< Below it.
+  std::string caption;          ///< Smaller, below the title.
 };
 
 /// What the colours of Panel::face_values mean: pale at `low`, dark at `high`, evenly so to the eye between, and also
@@ -46,7 +46,7 @@ struct RenderOptions {
   bool feature_lines = true;       ///< Creases, boundaries and outlines.
   double feature_angle = std::numbers::pi * 145 / 180;  ///< Interior dihedral angle, radians, [0, pi]: sharper edges
                                                         ///< are creases, across others shading is smooth.
-  int supersampling = 2;                                ///< Rays a pixel along each side, [1, 8].
+  int supersampling = 3;                                ///< Rays a pixel along each side, [1, 8].
   int ambient_rays = 8;             ///< A pixel, [0, 64], for shadows where the surface is hollow; 0: none.
   std::optional<HeatMap> heat_map;  ///< Where absent, from the least to the largest of the face values.
   std::string title;                ///< Of the whole picture.
