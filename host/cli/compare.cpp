@@ -81,6 +81,9 @@ void check_job(const CompareJob& job) {
   check_finding(job.straight, job.finding);
   if (!job.json.empty()) check_can_be_written(job.json, "--json");
   check(job.picture);
+  if (!job.picture.path.empty() && job.picture.path == job.json) {
+    throw WrongUsage(fmt::format("--picture and --json both name {}: give them different files", job.json));
+  }
   if (job.faces.empty()) return;
   if (job.edits.size() > 1) throw WrongUsage("--faces: one edit's numbers go into a file: name one edit");
   if (job.faces == job.json) {

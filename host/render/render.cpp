@@ -39,6 +39,7 @@ void check_options(const RenderOptions& options, const char* function) {
   check_range("supersampling", options.supersampling, 1, 8);
   check_range("ambient_rays", options.ambient_rays, 0, 64);
   check_range("columns", options.columns, 0, 1000);
+  require(options.up.allFinite() && options.up.norm() > 0, function, "options.up: it is zero or not finite");
   if (!options.heat_map) return;
   const auto [low, high, label] = *options.heat_map;
   require(std::isfinite(low) && std::isfinite(high) && low < high, function,
@@ -104,14 +105,16 @@ struct PanelTask {
 
 bool draw_panel(Image& image, const PanelTask& task, const RenderOptions& options, const HeatMap& heat,
                 const Watch& watch) {
+  if (!watch.goes_on("prepare", 0)) return false;
   const RenderScene scene = scene_of(task.panel, task.framing.box, options.feature_angle, heat);
   Camera camera = task.framing.camera;
   camera.scale = task.scale;
-  const double outline = options.feature_lines ? 1.5 * task.unit : 0;
-  const SurfaceView view{scene, camera, task.box, options.supersampling, options.ambient_rays, outline};
+  const double line_width = std::max(1.2, 1.5 * task.unit);
+  const SurfaceView view{
+      scene, camera, task.box, options.supersampling, options.ambient_rays, options.feature_lines ? line_width : 0};
   long covered = 0;
   if (!draw_surface(image, view, covered, watch.part(0.1, 0.9))) return false;
-  if (options.feature_lines && !draw_lines(image, view, covered, 1.5 * task.unit, watch.part(0.9, 1))) return false;
+  if (options.feature_lines && !draw_lines(image, view, covered, line_width, watch.part(0.9, 1))) return false;
   const auto pixel_of = [&](const Eigen::Vector3d& point) -> Eigen::Vector2d {
     return task.box.middle() + camera.project(into(task.framing.box, point));
   };
@@ -127,6 +130,7 @@ struct Group {
 
 Framing framing_of_row(const SheetRow& row, const RenderOptions& options, const char* function) {
   const Panel& first = row.panels.front();
+  seen_positions(row.panels, function);  // Refused in this function's name.
   View view;
   if (row.view) {
     view = *row.view;

@@ -80,7 +80,7 @@ TEST_F(Rays, TellWhereTheyMeetTheSurface) {
   const RayScene scene(mesh.positions, mesh.triangles);
   std::vector<Ray> rays;
   for (int i = 0; i < 100; ++i) {
-    const auto offset = 0.013F * static_cast<float>(i);
+    const auto offset = 0.007F + 0.013F * static_cast<float>(i);  // Not at a vertex.
     rays.push_back({{offset, 0.5F * offset, 2}, kDown.cast<float>(), 10});
   }
   const std::vector<RayHit> hits = scene.first_hits(rays);

@@ -40,7 +40,7 @@ Region bounds(const Image& image, const Region& region, const std::function<bool
 bool is_ink(const Rgb& colour) { return difference(colour, {255, 255, 255}) > 8; }
 bool is_orange(const Rgb& c) { return c[0] > 220 && c[1] > 100 && c[1] < 170 && c[2] < 60; }
 bool is_red(const Rgb& c) { return c[0] > 180 && c[1] < 80 && c[2] < 80; }
-bool is_dark(const Rgb& c) { return c[0] < 90 && c[1] < 90 && c[2] < 90; }
+bool is_dark(const Rgb& c) { return c[0] < 140 && c[1] < 140 && c[2] < 140; }
 
 RenderOptions plain(int width, int height, const Eigen::Vector3d& from) {
   RenderOptions options;
