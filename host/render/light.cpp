@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kAmbientReach = 0.35F;  // In unit boxes: nearer than that, a surface casts shadow.
 constexpr float kOffSurface = 2e-4F;    // Rays start that far off what they shall not meet.
+constexpr float kDarkest = 0.2F;        // Of the ambient light, what comes even into the deepest hollow.
 constexpr float kBrightest = 1.1F;
 constexpr float kHeatShade = 0.6F;  // Of what shading takes from colours, where they mean something.
 constexpr int kPatterns = 64;
@@ -53,7 +54,7 @@ float light_at(const SurfaceView& view, const Eigen::Vector3f& normal, float amb
   const Camera& camera = view.camera;
   const Eigen::Vector3f seen(camera.right.cast<float>().dot(normal), camera.up.cast<float>().dot(normal),
                              camera.toward.cast<float>().dot(normal));
-  const float light = lit(seen, ambience) / facing;
+  const float light = lit(seen, kDarkest + (1 - kDarkest) * ambience) / facing;
   return view.scene.is_heat_map ? std::min(1.0F, 1 - kHeatShade * (1 - light))
                                 : std::min(kBrightest, light > 1 ? (1 + light) / 2 : light);
 }

@@ -11,22 +11,23 @@
 namespace swage {
 namespace {
 
-constexpr double kOnePlace = 1e-7;  // As much as single precision tells apart.
+constexpr double kOnePlace = 1e-7;  // In unit boxes: as much as single precision tells apart.
+constexpr double kSpeck = 0.025;    // Likewise: lines shorter than that are clutter.
 
-/// The corners of triangles in sets, which grow together.
-class CornerSets {
+/// Things in sets, which grow together.
+class Sets {
  public:
-  explicit CornerSets(Eigen::Index triangles) : parents_(static_cast<size_t>(3 * triangles)) {
+  explicit Sets(Eigen::Index things) : parents_(static_cast<size_t>(things)) {
     std::iota(parents_.begin(), parents_.end(), 0);
   }
-  int find(int corner) {
-    while (parent(corner) != corner) corner = parent(corner) = parent(parent(corner));
-    return corner;
+  int find(int thing) {
+    while (parent(thing) != thing) thing = parent(thing) = parent(parent(thing));
+    return thing;
   }
   void join(int a, int b) { parent(find(a)) = find(b); }
 
  private:
-  int& parent(int corner) { return parents_[static_cast<size_t>(corner)]; }
+  int& parent(int thing) { return parents_[static_cast<size_t>(thing)]; }
   std::vector<int> parents_;
 };
 
@@ -74,7 +75,7 @@ EdgeKinds kinds_of(const Surface& surface, const Positions& normals, double feat
 std::vector<Eigen::Vector3f> corner_normals(const Surface& surface, const Positions& normals,
                                             const std::vector<int>& smooth) {
   const Mesh& mesh = surface.mesh;
-  CornerSets sets(mesh.triangles.rows());
+  Sets sets(3 * mesh.triangles.rows());
   for (const int e : smooth) {
     const Lists::Range beside = surface.edges.triangles[e];
     for (int k = 0; k < 2; ++k) {
@@ -91,6 +92,22 @@ std::vector<Eigen::Vector3f> corner_normals(const Surface& surface, const Positi
     means.push_back(mean.transpose().cast<float>());
   }
   return means;
+}
+
+/// Without those that join to no more than a speck.
+std::vector<std::array<int, 2>> long_lines(const Surface& surface, const std::vector<int>& edges) {
+  const Positions& positions = surface.mesh.positions;
+  std::vector<std::array<int, 2>> lines;
+  Sets sets(positions.rows());
+  for (const int e : edges) {
+    lines.push_back({surface.edges.vertices(e, 0), surface.edges.vertices(e, 1)});
+    sets.join(lines.back()[0], lines.back()[1]);
+  }
+  std::vector<double> lengths(static_cast<size_t>(positions.rows()), 0);
+  const auto length_of = [&](int vertex) -> double& { return lengths[static_cast<size_t>(sets.find(vertex))]; };
+  for (const auto& [a, b] : lines) length_of(a) += (positions.row(b) - positions.row(a)).norm();
+  std::erase_if(lines, [&](const auto& line) { return length_of(line[0]) < kSpeck; });
+  return lines;
 }
 
 std::vector<Colour> colours_of(const Panel& panel, const Surface& surface, const HeatMap& heat) {
@@ -114,7 +131,7 @@ RenderScene scene_of(const Panel& panel, const UnitBox& box, double feature_angl
   scene.corner_normals = corner_normals(surface, normals, kinds.smooth);
   scene.is_heat_map = panel.face_values.size() > 0;
   scene.colours = colours_of(panel, surface, heat);
-  for (const int e : kinds.lines) scene.lines.push_back({surface.edges.vertices(e, 0), surface.edges.vertices(e, 1)});
+  scene.lines = long_lines(surface, kinds.lines);
   scene.mesh = std::move(surface.mesh);
   return scene;
 }
