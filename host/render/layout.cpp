@@ -12,8 +12,9 @@ constexpr double kLine = 1.7;  // Height of a line of text over its size.
 
 int pixels(double length) { return static_cast<int>(std::lround(length)); }
 
+/// No larger than lets the footer's parts stand beside each other, and meshes be larger than dots and words.
 double unit_of(double width, double height) {
-  return std::clamp(std::sqrt(width * height / (1600.0 * 900.0)), 0.4, 8.0);
+  return std::clamp(std::min({std::sqrt(width * height / (1600.0 * 900.0)), width / 1000, height / 500}), 0.4, 8.0);
 }
 
 /// Places panels and their texts in cells, and lines of text from the top.
@@ -134,7 +135,7 @@ Layout rows_layout(const std::vector<GroupShape>& groups, const std::vector<std:
                    const RenderOptions& options, bool has_footer) {
   size_t longest = 1;
   for (const GroupShape& group : groups) longest = std::max(longest, group.panels.size());
-  const double unit = std::clamp(options.width / 1600.0, 0.4, 8.0);
+  const double unit = std::clamp(std::min(options.width / 1600.0, options.height / 250.0), 0.4, 8.0);
   Placing placing(options.width, unit);
   placing.add_title(options.title);
   placing.add_column_titles(columns);
