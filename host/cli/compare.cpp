@@ -1,5 +1,7 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -10,6 +12,7 @@
 #include "gesture_options.h"
 #include "interrupt.h"
 #include "options.h"
+#include "picture.h"
 #include "progress_bar.h"
 #include "report_json.h"
 #include "straight.h"
@@ -26,6 +29,7 @@ struct CompareJob {
   double crease_angle = 145;
   StraightFinding finding;
   GestureOptions gesture;
+  PictureOptions picture;
 };
 
 struct Measured {
@@ -39,9 +43,47 @@ bool asks_for_handles(const GestureOptions& gesture) {
   return !gesture.gesture.empty() || !gesture.pins.empty() || !gesture.moves.empty();
 }
 
+bool is_mesh_file(const std::filesystem::path& path) {
+  try {
+    format_of(path);
+    return std::filesystem::is_regular_file(path);
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+/// Where a path is a folder, the mesh files in it, in order of their names, without the rest.
+std::vector<std::string> files_of(const std::string& path, const std::string& rest) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {path};
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+    std::error_code ignored;
+    if (is_mesh_file(entry.path()) && !fs::equivalent(entry.path(), rest, ignored)) files.push_back(entry.path());
+  }
+  if (error) throw UnreadableFile(path + ": the folder cannot be read: " + error.message());
+  if (files.empty()) throw UnreadableFile(path + ": there is no edit in this folder: no .obj .ply .stl .off file");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void open_folders(CompareJob& job) {
+  std::vector<std::string> edits;
+  for (const std::string& path : job.edits) {
+    const std::vector<std::string> files = files_of(path, job.rest);
+    edits.insert(edits.end(), files.begin(), files.end());
+  }
+  job.edits = std::move(edits);
+}
+
 void check_job(const CompareJob& job) {
   check_finding(job.straight, job.finding);
   if (!job.json.empty()) check_can_be_written(job.json, "--json");
+  check(job.picture);
+  if (!job.picture.path.empty() && job.picture.path == job.json) {
+    throw WrongUsage(fmt::format("--picture and --json both name {}: give them different files", job.json));
+  }
   if (job.faces.empty()) return;
   if (job.edits.size() > 1) throw WrongUsage("--faces: one edit's numbers go into a file: name one edit");
   if (job.faces == job.json) {
@@ -181,7 +223,16 @@ void write_faces(const std::string& path, const Triangles& triangles, const Meas
                      {"slippage_loss", faces.slippage_loss}});
 }
 
-void run_compare(const CompareJob& job, const CommonOptions& common) {
+Image picture(const CompareJob& job, const Mesh& rest, const std::vector<Measured>& measured,
+              const std::optional<Gesture>& gesture, const CommonOptions& common) {
+  if (job.picture.path.empty()) return {};
+  std::vector<PictureEdit> edits;
+  for (const Measured& edit : measured) edits.push_back({edit.path, edit.positions, edit.changes});
+  return picture_of(job.picture, job.rest, rest, edits, gesture, common);
+}
+
+void run_compare(CompareJob job, const CommonOptions& common) {
+  open_folders(job);
   check_job(job);
   apply(common);
   const MeshFile rest = read_mesh(job.rest);
@@ -189,7 +240,9 @@ void run_compare(const CompareJob& job, const CommonOptions& common) {
   const CompareOptions options = options_of(job, rest);
   std::vector<Measured> edits;
   for (const std::string& path : job.edits) edits.push_back(measure(rest.mesh, path, options, common));
+  const Image image = picture(job, rest.mesh, edits, options.gesture, common);
   write_faces(job.faces, rest.mesh.triangles, edits.front());
+  if (!job.picture.path.empty()) write_png(job.picture.path, image);
   write_json(job.json, compare_json(job, rest, edits));
   if (job.json != kStdout) print(edits);
 }
@@ -200,7 +253,8 @@ Command compare_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* app = program.add_subcommand("compare", "Measures what edits of a mesh did to it");
   auto job = std::make_shared<CompareJob>();
   app->add_option("REST", job->rest, "The mesh before: .obj .ply .stl .off")->required();
-  app->add_option("MESH", job->edits, "Edits of it: the same vertices in the same order")->required();
+  app->add_option("MESH", job->edits, "Edits of it, or folders of them: the same vertices in the same order")
+      ->required();
   app->add_option("--json", job->json, "The measures as JSON; - for stdout, instead of the table")->type_name("FILE");
   app->add_option("--faces", job->faces, "The edit with the measures of each triangle as properties")
       ->type_name("FILE.ply");
@@ -213,6 +267,7 @@ Command compare_command(CLI::App& program, const CommonOptions& common) {
           ->type_name("auto|none|FILE");
   add_finding_options(*app, job->finding, *straight);
   add_gesture_options(*app, job->gesture);
+  add_picture_options(*app, job->picture);
   return {app, [job, &common] { run_compare(*job, common); }};
 }
 

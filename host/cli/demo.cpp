@@ -6,9 +6,11 @@
 #include "failure.h"
 #include "furniture.h"
 #include "options.h"
+#include "picture.h"
 #include "reshape.h"
 #include "swage/error.h"
 #include "swage/mesh_io.h"
+#include "swage/render.h"
 
 namespace swage::cli {
 namespace {
@@ -25,6 +27,16 @@ std::string line(const std::filesystem::path& path, const std::string& what) {
   return fmt::format("{:<28} {}\n", path.string(), what);
 }
 
+/// Gives a line that tells about it.
+std::string picture_beside(const std::filesystem::path& folder, const Mesh& rest, const Gesture& gesture,
+                           const Positions& result) {
+  const auto path = folder / "before_after.png";
+  if (!can_render()) return line(path, "left out: this build makes no pictures (SWAGE_RENDER, SWAGE_EMBREE)");
+  write_png(path, render({{rest, "before", marks_of(gesture, rest.positions, false), {}, {}},
+                          {{result, rest.triangles}, "after", marks_of(gesture, rest.positions, true), {}, {}}}));
+  return line(path, "the chair before and after, side by side");
+}
+
 /// Writes what a user would start from, then runs what a user would run.
 void run_demo(const std::filesystem::path& folder, const CommonOptions& common) {
   const auto rest = folder / "rest.obj", gesture = folder / "gesture.deform", result = folder / "result.obj",
@@ -32,7 +44,8 @@ void run_demo(const std::filesystem::path& folder, const CommonOptions& common) 
   make_folder(folder);
   const Mesh mesh = chair();
   write_mesh(rest, mesh);
-  write_gestures(gesture, {wider_and_lower(mesh)}, mesh.positions);
+  const Gesture wider = wider_and_lower(mesh);
+  write_gestures(gesture, {wider}, mesh.positions);
 
   ReshapeJob job;
   job.mesh = rest.string();
@@ -40,12 +53,12 @@ void run_demo(const std::filesystem::path& folder, const CommonOptions& common) 
   job.json = report.string();
   const ReshapeResult reshaped = run(job, GestureRecipe({gesture.string(), {}, {}}), common);
 
-  write_stdout(line(rest, fmt::format("a chair of {} triangles", mesh.triangles.rows())) +
-               line(gesture, "the edit: ten handles that make it wider and lower") +
-               line(result, "the chair after it") + line(report, "the run in numbers") +
-               fmt::format("Reshaped in {} passes ({}). The same by hand:\n  swage reshape {} --gesture {} -o {}\n",
-                           reshaped.report.passes, to_string(reshaped.report.stop), job.mesh, gesture.string(),
-                           job.output));
+  write_stdout(
+      line(rest, fmt::format("a chair of {} triangles", mesh.triangles.rows())) +
+      line(gesture, "the edit: ten handles that make it wider and lower") + line(result, "the chair after it") +
+      line(report, "the run in numbers") + picture_beside(folder, mesh, wider, reshaped.positions) +
+      fmt::format("Reshaped in {} passes ({}). The same by hand:\n  swage reshape {} --gesture {} -o {}\n",
+                  reshaped.report.passes, to_string(reshaped.report.stop), job.mesh, gesture.string(), job.output));
 }
 
 }  // namespace

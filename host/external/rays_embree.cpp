@@ -34,6 +34,37 @@ Context context_for(const RayScene::Accepts& accepts) {
   return context;
 }
 
+RTCRay embree_ray(const Ray& ray) {
+  RTCRay out;
+  out.org_x = ray.origin.x();
+  out.org_y = ray.origin.y();
+  out.org_z = ray.origin.z();
+  out.tnear = 0;
+  out.dir_x = ray.direction.x();
+  out.dir_y = ray.direction.y();
+  out.dir_z = ray.direction.z();
+  out.time = 0;
+  out.tfar = ray.reach;
+  out.mask = std::numeric_limits<unsigned>::max();
+  out.id = 0;
+  out.flags = 0;
+  return out;
+}
+
+RTCHit no_hit() {
+  RTCHit out;
+  out.geomID = RTC_INVALID_GEOMETRY_ID;
+  out.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return out;
+}
+
+RTCIntersectContext context_of_neighbours() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
 float rounded_up(double reach) { return static_cast<float>(std::min(reach * (1 + 1e-6), 1e30)) + kSlack; }
 
 bool visit_one(RTCPointQueryFunctionArguments* arguments) {
@@ -91,23 +122,34 @@ int RayScene::first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& di
                         const Accepts& accepts) const {
   Context context = context_for(accepts);
   const Eigen::Vector3f to = direction.cast<float>(), from = origin.cast<float>() - kSlack * to;
-  RTCRayHit ray;
-  ray.ray.org_x = from.x();
-  ray.ray.org_y = from.y();
-  ray.ray.org_z = from.z();
-  ray.ray.tnear = 0;
-  ray.ray.dir_x = to.x();
-  ray.ray.dir_y = to.y();
-  ray.ray.dir_z = to.z();
-  ray.ray.time = 0;
-  ray.ray.tfar = kSlack + rounded_up(reach);
-  ray.ray.mask = std::numeric_limits<unsigned>::max();
-  ray.ray.id = 0;
-  ray.ray.flags = 0;
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCRayHit ray = {embree_ray({from, to, kSlack + rounded_up(reach)}), no_hit()};
   rtcIntersect1(embree_->scene, &context.embree, &ray);
   return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(ray.hit.primID);
+}
+
+std::vector<RayHit> RayScene::first_hits(std::span<const Ray> rays) const {
+  std::vector<RTCRayHit> traced(rays.size());
+  std::transform(rays.begin(), rays.end(), traced.begin(), [](const Ray& ray) {
+    return RTCRayHit{embree_ray(ray), no_hit()};
+  });
+  RTCIntersectContext context = context_of_neighbours();
+  rtcIntersect1M(embree_->scene, &context, traced.data(), static_cast<unsigned>(traced.size()), sizeof(RTCRayHit));
+  std::vector<RayHit> hits(rays.size());
+  std::transform(traced.begin(), traced.end(), hits.begin(), [](const RTCRayHit& one) {
+    if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID) return RayHit();
+    return RayHit{static_cast<int>(one.hit.primID), one.ray.tfar, one.hit.u, one.hit.v};
+  });
+  return hits;
+}
+
+std::vector<char> RayScene::occluded(std::span<const Ray> rays) const {
+  std::vector<RTCRay> traced(rays.size());
+  std::transform(rays.begin(), rays.end(), traced.begin(), embree_ray);
+  RTCIntersectContext context = context_of_neighbours();
+  rtcOccluded1M(embree_->scene, &context, traced.data(), static_cast<unsigned>(traced.size()), sizeof(RTCRay));
+  std::vector<char> met(rays.size());
+  std::transform(traced.begin(), traced.end(), met.begin(), [](const RTCRay& ray) { return ray.tfar < 0 ? 1 : 0; });
+  return met;
 }
 
 void RayScene::visit_near(const Eigen::Vector3d& point, double reach, const Visit& visit) const {

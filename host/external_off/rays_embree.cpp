@@ -24,6 +24,10 @@ int RayScene::first_hit(const Eigen::Vector3d&, const Eigen::Vector3d&, double, 
   refuse("RayScene::first_hit");
 }
 
+std::vector<RayHit> RayScene::first_hits(std::span<const Ray>) const { refuse("RayScene::first_hits"); }
+
+std::vector<char> RayScene::occluded(std::span<const Ray>) const { refuse("RayScene::occluded"); }
+
 void RayScene::visit_near(const Eigen::Vector3d&, double, const Visit&) const { refuse("RayScene::visit_near"); }
 
 }  // namespace swage

@@ -12,6 +12,7 @@
 
 #include "program.h"
 #include "swage/mesh_io.h"
+#include "swage/render.h"
 
 namespace swage::test {
 namespace {
@@ -19,7 +20,11 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::vector<std::string> kFiles{"gesture.deform", "report.json", "rest.obj", "result.obj"};
+std::vector<std::string> files() {
+  std::vector<std::string> names{"gesture.deform", "report.json", "rest.obj", "result.obj"};
+  if (can_render()) names.insert(names.begin(), "before_after.png");
+  return names;
+}
 
 /// The demo, run once.
 class Demo : public testing::Test {
@@ -36,10 +41,20 @@ class Demo : public testing::Test {
   static inline Outcome outcome_;
 };
 
-TEST_F(Demo, WritesAndNamesFourFiles) {
+TEST_F(Demo, WritesAndNamesItsFiles) {
   ASSERT_EQ(outcome_.code, 0) << outcome_.err;
-  EXPECT_EQ(names_in(file("")), kFiles);
-  for (const std::string& name : kFiles) EXPECT_THAT(outcome_.out, HasSubstr(file(name).string() + " "));
+  EXPECT_EQ(names_in(file("")), files());
+  for (const std::string& name : files()) EXPECT_THAT(outcome_.out, HasSubstr(file(name).string() + " "));
+}
+
+TEST_F(Demo, ShowsAPictureOrTellsWhyNot) {
+  if (!can_render()) {
+    EXPECT_THAT(outcome_.out, HasSubstr("SWAGE_RENDER"));
+    return;
+  }
+  const std::string png = read_text(file("before_after.png"));
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1A\n");
+  EXPECT_GT(png.size(), 20000U) << "an empty sheet packs to less";
 }
 
 TEST_F(Demo, TheChairIsAGoodMesh) {

@@ -75,6 +75,45 @@ TEST_F(Rays, PassThroughWhatDoesNotCount) {
   EXPECT_EQ(scene.first_hit({0.3, 0.4, 2}, kDown, kFar, [](int) { return false; }), -1);
 }
 
+TEST_F(Rays, TellWhereTheyMeetTheSurface) {
+  const Mesh mesh = test::sphere(0.5, 3);
+  const RayScene scene(mesh.positions, mesh.triangles);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 100; ++i) {
+    const auto offset = 0.007F + 0.013F * static_cast<float>(i);  // Not at a vertex.
+    rays.push_back({{offset, 0.5F * offset, 2}, kDown.cast<float>(), 10});
+  }
+  const std::vector<RayHit> hits = scene.first_hits(rays);
+  ASSERT_EQ(hits.size(), rays.size());
+  int met = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(hits[i].triangle, scene.first_hit(rays[i].origin.cast<double>(), kDown, 10)) << i;
+    if (hits[i].triangle < 0) continue;
+    ++met;
+    const auto corner = [&](int k) -> Eigen::RowVector3f {
+      return mesh.positions.row(mesh.triangles(hits[i].triangle, k)).cast<float>();
+    };
+    const float u = hits[i].u, v = hits[i].v;
+    const Eigen::RowVector3f by_weights = (1 - u - v) * corner(0) + u * corner(1) + v * corner(2);
+    const Eigen::RowVector3f along = (rays[i].origin + hits[i].distance * rays[i].direction).transpose();
+    EXPECT_LT((by_weights - along).norm(), 1e-5F) << i;
+  }
+  EXPECT_GT(met, 25);
+  EXPECT_LT(met, 40);  // 0.5 / sqrt(1.25) / 0.013 = 34.4.
+}
+
+TEST_F(Rays, AreOccludedWithinTheirReach) {
+  const Mesh mesh = two_sheets();
+  const RayScene scene(mesh.positions, mesh.triangles);
+  const Eigen::Vector3f down = kDown.cast<float>(), up = kUp.cast<float>();
+  const std::vector<Ray> rays{{{0.3F, 0.4F, 1.25F}, down, 0.99F}, {{0.3F, 0.4F, 1.25F}, down, 1.01F},
+                              {{0.3F, 0.4F, 0.1F}, up, 0.14F},    {{0.3F, 0.4F, 0.1F}, up, 0.16F},
+                              {{0.3F, 0.4F, 0.3F}, up, 9},        {{1.3F, 0.4F, 2}, down, 9}};
+  EXPECT_EQ(scene.occluded(rays), (std::vector<char>{0, 1, 0, 1, 0, 0}));
+  EXPECT_TRUE(scene.occluded({}).empty());
+  EXPECT_TRUE(scene.first_hits({}).empty());
+}
+
 TEST_F(Rays, NoTriangleWithinReachIsPassedBy) {
   const Mesh mesh = test::sphere(0.5, 3);
   const RayScene scene(mesh.positions, mesh.triangles);

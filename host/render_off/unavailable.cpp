@@ -1,0 +1,29 @@
+// Stands in for host/render where the build leaves it out.
+#include "swage/error.h"
+#include "swage/render.h"
+
+namespace swage {
+namespace {
+
+[[noreturn]] void refuse(const char* function) {
+  throw Unavailable(std::string(function) + ": this build makes no pictures; configure with -DSWAGE_RENDER=ON");
+}
+
+}  // namespace
+
+bool can_render() { return false; }
+
+Image render(const std::vector<Panel>&, const RenderOptions&, const ProgressFn&) { refuse("render"); }
+
+Image contact_sheet(const std::vector<SheetRow>&, const std::vector<std::string>&, const RenderOptions&,
+                    const ProgressFn&) {
+  refuse("contact_sheet");
+}
+
+View automatic_view(const Mesh&, const std::vector<HandleMark>&, const Eigen::Vector3d&) { refuse("automatic_view"); }
+
+std::string png(const Image&) { refuse("png"); }
+
+void write_png(const std::filesystem::path&, const Image&) { refuse("write_png"); }
+
+}  // namespace swage
