@@ -43,6 +43,32 @@ TEST_P(Alup, ABoxMadeHigherKeepsItsNormalsLessThanSlippageDoes) {
   EXPECT_LT(change(ReshapeMethod::alup), 5);
 }
 
+/// The vertices of a unit box that lie on so many of its faces or more, scaled.
+Gesture scaled(const Mesh& mesh, int faces, const Eigen::Vector3d& scale) {
+  Gesture gesture;
+  for (int v = 0; v < mesh.positions.rows(); ++v) {
+    const Eigen::Vector3d p = mesh.positions.row(v);
+    if ((p.array() < 1e-9 || p.array() > 1 - 1e-9).count() >= faces) gesture.add(v, scale.cwiseProduct(p));
+  }
+  return gesture;
+}
+
+/// Whose edges are scaled along an axis, or whose corners in all directions.
+TEST_P(Alup, AndSlippageKeepTheNormalsOfABoxThatIsScaled) {
+  for (const int cells : {2, 6}) {
+    const Mesh mesh = box({1, 1, 1}, cells);
+    for (const ReshapeMethod method : {ReshapeMethod::slippage, ReshapeMethod::alup}) {
+      const auto change = [&](const Gesture& gesture) {
+        return mean_normal_change(mesh, reshaped(mesh, gesture, method, GetParam()));
+      };
+      for (const Eigen::Vector3d& scale : {Eigen::Vector3d(1, 1.6, 1), Eigen::Vector3d(0.6, 1, 1)}) {
+        EXPECT_LT(change(scaled(mesh, 2, scale)), 0.1) << to_string(method);
+      }
+      EXPECT_LT(change(scaled(mesh, 3, {1.6, 1.6, 1.6})), 0.1) << to_string(method);
+    }
+  }
+}
+
 /// Two opposite vertices of a sphere, pulled apart by its radius.
 TEST_P(Alup, ASphereGrowsAlike) {
   const Mesh mesh = sphere(1, 3);
