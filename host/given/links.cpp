@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "measures.h"
 #include "nearest.h"
+#include "sets.h"
 
 namespace swage {
 namespace {
@@ -21,31 +21,6 @@ constexpr double kTouch = 1e-4;  // Of the unit box: how near is together.
 constexpr double kContactStiffness = 10;
 constexpr double kLinkWeight = 1e-2;  // The paper's w_edge.
 constexpr size_t kMostOfTwo = 100;    // Contacts of two components, links of a group: more say nothing new.
-
-/// Sets that grow together, each told by its lowest member.
-class Sets {
- public:
-  explicit Sets(int count) : parents_(static_cast<size_t>(count)) { std::iota(parents_.begin(), parents_.end(), 0); }
-  int of(int i) {
-    while (parents_[static_cast<size_t>(i)] != i) {
-      int& parent = parents_[static_cast<size_t>(i)];
-      i = parent = parents_[static_cast<size_t>(parent)];
-    }
-    return i;
-  }
-  void join(int i, int j) {
-    const auto [low, high] = std::minmax({of(i), of(j)});
-    parents_[static_cast<size_t>(high)] = low;
-  }
-  int count() {
-    int sets = 0;
-    for (int i = 0; i < static_cast<int>(parents_.size()); ++i) sets += of(i) == i ? 1 : 0;
-    return sets;
-  }
-
- private:
-  std::vector<int> parents_;
-};
 
 /// The mesh, its components, and the tree to ask.
 struct Parts {

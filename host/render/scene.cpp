@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "heat.h"
+#include "sets.h"
 #include "surface.h"
 
 namespace swage {
@@ -13,23 +13,6 @@ namespace {
 
 constexpr double kOnePlace = 1e-7;  // In unit boxes: as much as single precision tells apart.
 constexpr double kSpeck = 0.025;    // Likewise: lines shorter than that are clutter.
-
-/// Things in sets, which grow together.
-class Sets {
- public:
-  explicit Sets(Eigen::Index things) : parents_(static_cast<size_t>(things)) {
-    std::iota(parents_.begin(), parents_.end(), 0);
-  }
-  int find(int thing) {
-    while (parent(thing) != thing) thing = parent(thing) = parent(parent(thing));
-    return thing;
-  }
-  void join(int a, int b) { parent(find(a)) = find(b); }
-
- private:
-  int& parent(int thing) { return parents_[static_cast<size_t>(thing)]; }
-  std::vector<int> parents_;
-};
 
 int corner_at(const Triangles& triangles, int triangle, int vertex) {
   int k = 0;
@@ -75,7 +58,7 @@ EdgeKinds kinds_of(const Surface& surface, const Positions& normals, double feat
 std::vector<Eigen::Vector3f> corner_normals(const Surface& surface, const Positions& normals,
                                             const std::vector<int>& smooth) {
   const Mesh& mesh = surface.mesh;
-  Sets sets(3 * mesh.triangles.rows());
+  Sets sets(static_cast<int>(3 * mesh.triangles.rows()));
   for (const int e : smooth) {
     const Lists::Range beside = surface.edges.triangles[e];
     for (int k = 0; k < 2; ++k) {
@@ -84,11 +67,11 @@ std::vector<Eigen::Vector3f> corner_normals(const Surface& surface, const Positi
     }
   }
   Positions sums = Positions::Zero(3 * mesh.triangles.rows(), 3);
-  for (int c = 0; c < sums.rows(); ++c) sums.row(sets.find(c)) += angle_at(mesh, c / 3, c % 3) * normals.row(c / 3);
+  for (int c = 0; c < sums.rows(); ++c) sums.row(sets.of(c)) += angle_at(mesh, c / 3, c % 3) * normals.row(c / 3);
   std::vector<Eigen::Vector3f> means;
   means.reserve(static_cast<size_t>(sums.rows()));
   for (int c = 0; c < sums.rows(); ++c) {
-    const Eigen::RowVector3d mean = sums.row(sets.find(c)).stableNormalized();
+    const Eigen::RowVector3d mean = sums.row(sets.of(c)).stableNormalized();
     means.push_back(mean.transpose().cast<float>());
   }
   return means;
@@ -98,13 +81,13 @@ std::vector<Eigen::Vector3f> corner_normals(const Surface& surface, const Positi
 std::vector<std::array<int, 2>> long_lines(const Surface& surface, const std::vector<int>& edges) {
   const Positions& positions = surface.mesh.positions;
   std::vector<std::array<int, 2>> lines;
-  Sets sets(positions.rows());
+  Sets sets(static_cast<int>(positions.rows()));
   for (const int e : edges) {
     lines.push_back({surface.edges.vertices(e, 0), surface.edges.vertices(e, 1)});
     sets.join(lines.back()[0], lines.back()[1]);
   }
   std::vector<double> lengths(static_cast<size_t>(positions.rows()), 0);
-  const auto length_of = [&](int vertex) -> double& { return lengths[static_cast<size_t>(sets.find(vertex))]; };
+  const auto length_of = [&](int vertex) -> double& { return lengths[static_cast<size_t>(sets.of(vertex))]; };
   for (const auto& [a, b] : lines) length_of(a) += (positions.row(b) - positions.row(a)).norm();
   std::erase_if(lines, [&](const auto& line) { return length_of(line[0]) < kSpeck; });
   return lines;

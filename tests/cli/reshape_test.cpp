@@ -156,7 +156,6 @@ TEST_F(Reshaping, OptionsThatAMethodHasNoUseForAreRefused) {
   for (const Arguments& unused : std::vector<Arguments>{{"--solver", "published"},
                                                         {"--linear-solver", "factor"},
                                                         {"--no-finalise"},
-                                                        {"--remesh", "always"},
                                                         {"--feature-angle", "90"},
                                                         {"--straight", "auto"}}) {
     Arguments arguments{"--json", "-", "--method", "arap"};

@@ -108,7 +108,7 @@ TEST_F(Usage, WrongUsageExitsWith2) {
       {{"reshape", "@/box.obj", "--pin", "0", "--threads", "1.5", "-o", "@/r.obj"}, "1.5"},
       {{"reshape", "@/box.obj", "--pin", "0", "--feature-angle", "nan", "-o", "@/r.obj"}, "0 to 180"},
       {{"reshape", "@/box.obj", "--pin", "0", "--feature-angle", "181", "-o", "@/r.obj"}, "0 to 180"},
-      {{"reshape", "@/box.obj", "--pin", "0", "--method", "arap", "-o", "@/r.obj"}, "slippage"},
+      {{"reshape", "@/box.obj", "--pin", "0", "--method", "laplace", "-o", "@/r.obj"}, "slippage"},
       {{"reshape", "@/box.obj", "--pin", "0", "--solver", "quick", "-o", "@/r.obj"}, "steady"},
       {{"reshape", "@/box.obj", "--pin", "0", "--quiet", "-v", "-o", "@/r.obj"}, "-v"},
       {{"reshape", "@/box.obj", "--pin", "0", "--backend", "abacus", "-o", "@/r.obj"}, "abacus"},
