@@ -227,6 +227,7 @@ Image picture(const CompareJob& job, const Mesh& rest, const std::vector<Measure
               const std::optional<Gesture>& gesture, const CommonOptions& common) {
   if (job.picture.path.empty()) return {};
   std::vector<PictureEdit> edits;
+  edits.reserve(measured.size());
   for (const Measured& edit : measured) edits.push_back({edit.path, edit.positions, edit.changes});
   return picture_of(job.picture, job.rest, rest, edits, gesture, common);
 }
