@@ -73,6 +73,7 @@ void Given::find_stand_ins(const Mesh& surface) {
 
 std::vector<int> Given::into(const std::vector<int>& chain) const {
   std::vector<int> result;
+  result.reserve(chain.size());
   for (const int vertex : chain) result.push_back(vertex_of_[static_cast<size_t>(vertex)]);
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
