@@ -180,6 +180,7 @@ GlobalSystem global_system(const PairsRest& pairs) {
 
 std::shared_ptr<const HeldSystem> held_system(DeformPlan& plan, const std::vector<Hold>& holds) {
   std::vector<std::array<int, 3>> key;
+  key.reserve(holds.size());
   for (const Hold& hold : holds) key.push_back(hold.vertices);
   const std::lock_guard lock(plan.holding);
   if (!plan.held || plan.held->key != key) plan.held = factored(plan, holds, std::move(key));

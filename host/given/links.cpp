@@ -39,7 +39,7 @@ struct Parts {
   Vector3d point(int v) const { return mesh.positions.row(v); }
 };
 
-Tie tie(const Mesh& mesh, std::vector<std::pair<int, double>> factors, double scale, double weight) {
+Tie tie(const Mesh& mesh, const std::vector<std::pair<int, double>>& factors, double scale, double weight) {
   Tie result{{}, Eigen::RowVector3d::Zero(), weight};
   for (const auto& [v, factor] : factors) {
     if (factor == 0) continue;

@@ -28,7 +28,8 @@ std::vector<Ray> grid_of(const Framing& framing) {
   std::vector<Ray> rays;
   const Camera& camera = framing.camera;
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const Eigen::Vector2d part((i % kGrid + 0.5) / kGrid - 0.5, (i / kGrid + 0.5) / kGrid - 0.5);
+    const int column = i % kGrid, row = i / kGrid;
+    const Eigen::Vector2d part((column + 0.5) / kGrid - 0.5, (row + 0.5) / kGrid - 0.5);
     const Eigen::Vector2d at = camera.centre + part.cwiseProduct(framing.extent);
     const Eigen::Vector3d origin = at.x() * camera.right + at.y() * camera.up + kEyeDistance * camera.toward;
     rays.push_back({origin.cast<float>(), -camera.toward.cast<float>(), 2 * kEyeDistance});

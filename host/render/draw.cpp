@@ -19,7 +19,7 @@ float line_coverage(const Eigen::Vector2d& at, const Eigen::Vector2d& from, cons
 }
 
 void blend(Image& image, int x, int y, const Colour& colour, float alpha) {
-  unsigned char* pixel = &image.rgb[3 * (static_cast<size_t>(y) * static_cast<size_t>(image.width) + size_t(x))];
+  unsigned char* pixel = &image.rgb[3 * place(x, y, image.width)];
   for (int k = 0; k < 3; ++k) {
     const float mixed = (1 - alpha) * pixel[k] + alpha * 255 * std::clamp(colour[k], 0.0F, 1.0F);
     pixel[k] = static_cast<unsigned char>(std::lround(mixed));

@@ -10,6 +10,11 @@
 
 namespace swage {
 
+/// Where (x, y) stands in rows of so many.
+inline size_t place(int x, int y, int columns) {
+  return static_cast<size_t>(y) * static_cast<size_t>(columns) + static_cast<size_t>(x);
+}
+
 /// The part of a pixel at `at` that a line with round ends covers, in [0, 1].
 float line_coverage(const Eigen::Vector2d& at, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "draw.h"
 #include "surface_view.h"
 
 namespace swage {
@@ -18,11 +19,11 @@ float fraction(double value) { return static_cast<float>(value - std::floor(valu
 
 /// Lights from the upper left and, weaker, from the right, in the camera's axes, and the sky.
 float lit(const Eigen::Vector3f& normal, float ambience) {
-  static const Eigen::Vector3f key = Eigen::Vector3f(-0.45F, 0.70F, 0.65F).normalized();
-  static const Eigen::Vector3f fill = Eigen::Vector3f(0.85F, 0.05F, 0.50F).normalized();
+  static const Eigen::Vector3f kKey = Eigen::Vector3f(-0.45F, 0.70F, 0.65F).normalized();
+  static const Eigen::Vector3f kFill = Eigen::Vector3f(0.85F, 0.05F, 0.50F).normalized();
   const float sky = 0.44F + 0.08F * normal.y();
   // Light from one side is blocked less than that from all.
-  return sky * ambience + (0.38F * std::max(0.0F, normal.dot(key)) + 0.16F * std::max(0.0F, normal.dot(fill))) *
+  return sky * ambience + (0.38F * std::max(0.0F, normal.dot(kKey)) + 0.16F * std::max(0.0F, normal.dot(kFill))) *
                               (0.35F + 0.65F * ambience);
 }
 
@@ -43,18 +44,18 @@ std::vector<Ray> Ambience::rays_from(const Eigen::Vector3f& point, const Eigen::
   std::vector<Ray> rays;
   rays.reserve(static_cast<size_t>(count_));
   for (int k = 0; k < count_; ++k) {
-    const Eigen::Vector3f& to = directions_[static_cast<size_t>(pattern * count_ + k)];
+    const Eigen::Vector3f& to = directions_[place(k, pattern, count_)];
     rays.push_back({origin, (to.x() * across + to.y() * along + to.z() * normal).normalized(), kAmbientReach});
   }
   return rays;
 }
 
 float light_at(const SurfaceView& view, const Eigen::Vector3f& normal, float ambience) {
-  static const float facing = lit(Eigen::Vector3f::UnitZ(), 1);
+  static const float kFacing = lit(Eigen::Vector3f::UnitZ(), 1);
   const Camera& camera = view.camera;
   const Eigen::Vector3f seen(camera.right.cast<float>().dot(normal), camera.up.cast<float>().dot(normal),
                              camera.toward.cast<float>().dot(normal));
-  const float light = lit(seen, kDarkest + (1 - kDarkest) * ambience) / facing;
+  const float light = lit(seen, kDarkest + (1 - kDarkest) * ambience) / kFacing;
   return view.scene.is_heat_map ? std::min(1.0F, 1 - kHeatShade * (1 - light))
                                 : std::min(kBrightest, light > 1 ? (1 + light) / 2 : light);
 }

@@ -48,13 +48,12 @@ std::vector<char> hidden_steps(const SurfaceView& view, const Stroke& stroke) {
 /// How much of each pixel of the panel lines cover: where several do, the most of them, so that joints are not darker.
 class Mask {
  public:
-  explicit Mask(const PixelBox& box)
-      : box_(box), ink_(static_cast<size_t>(box.width) * static_cast<size_t>(box.height), 0) {}
+  explicit Mask(const PixelBox& box) : box_(box), ink_(place(0, box.height, box.width), 0) {}
 
   void draw(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width) {
     visit_around(box_.width, box_.height, from, to, width / 2 + 1, [&](int x, int y) {
       const float coverage = line_coverage({x + 0.5, y + 0.5}, from, to, width);
-      unsigned char& ink = ink_[static_cast<size_t>(y) * static_cast<size_t>(box_.width) + static_cast<size_t>(x)];
+      unsigned char& ink = ink_[place(x, y, box_.width)];
       ink = std::max(ink, static_cast<unsigned char>(std::lround(255 * coverage)));
     });
   }
@@ -81,7 +80,7 @@ void draw_visible(Mask& mask, const Stroke& stroke, const std::vector<char>& hid
   for (int k = 0; k < stroke.steps; ++k) {
     if (hidden[static_cast<size_t>(k)]) continue;
     const int first = k;
-    while (k + 1 < stroke.steps && k - first < kPiece && !hidden[static_cast<size_t>(k + 1)]) ++k;
+    while (k + 1 < stroke.steps && k - first < kPiece && !hidden[static_cast<size_t>(k) + 1]) ++k;
     mask.draw(at(first), at(k + 1), width);
   }
 }

@@ -16,12 +16,12 @@ namespace {
 constexpr int kUnreadable = 0xFFFD;
 
 const stbtt_fontinfo& font() {
-  static const stbtt_fontinfo info = [] {
+  static const stbtt_fontinfo kInfo = [] {
     stbtt_fontinfo made;
     if (stbtt_InitFont(&made, font_file().data(), 0) == 0) throw Unavailable("text: the font built in is broken");
     return made;
   }();
-  return info;
+  return kInfo;
 }
 
 float scale_of(double size) { return stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(size)); }
@@ -66,12 +66,12 @@ void draw_glyph(Image& image, const Eigen::Vector2d& at, int point, float scale,
   stbtt_GetCodepointBitmapBoxSubpixel(&font(), point, scale, scale, shift, 0, &x0, &y0, &x1, &y1);
   const int width = x1 - x0, height = y1 - y0;
   if (width <= 0 || height <= 0) return;
-  std::vector<unsigned char> ink(static_cast<size_t>(width) * static_cast<size_t>(height));
+  std::vector<unsigned char> ink(place(0, height, width));
   stbtt_MakeCodepointBitmapSubpixel(&font(), ink.data(), width, height, width, scale, scale, shift, 0, point);
   const int corner_x = static_cast<int>(left) + x0, corner_y = static_cast<int>(std::lround(at.y())) + y0;
   for (int y = std::max(0, -corner_y); y < std::min(height, image.height - corner_y); ++y) {
     for (int x = std::max(0, -corner_x); x < std::min(width, image.width - corner_x); ++x) {
-      const unsigned char alpha = ink[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+      const unsigned char alpha = ink[place(x, y, width)];
       if (alpha > 0) blend(image, corner_x + x, corner_y + y, colour, static_cast<float>(alpha) / 255);
     }
   }

@@ -19,7 +19,7 @@ Tile::Tile(const SurfaceView& view, const PixelBox& inner)
       pixel_(static_cast<float>(1 / (view.camera.scale * view.supersampling))) {
   const int rows = outer_.height * view.supersampling;
   std::vector<Ray> rays;
-  rays.reserve(static_cast<size_t>(rows * columns_));
+  rays.reserve(place(0, rows, columns_));
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns_; ++x) {
       const Eigen::Vector2d at = Eigen::Vector2d(x + 0.5, y + 0.5) / view.supersampling;
@@ -63,12 +63,12 @@ const Tile::Sample* Tile::first_sample(int x, int y) const {
 }
 
 void Tile::find_ambience(const Ambience& ambience) {
-  open_.resize(static_cast<size_t>(outer_.width * outer_.height));
+  open_.resize(place(0, outer_.height, outer_.width));
   std::vector<Ray> rays;
   std::vector<Open*> owners;
   for (int y = 0; y < outer_.height; ++y) {
     for (int x = 0; x < outer_.width; ++x) {
-      Open& open = open_[static_cast<size_t>(y * outer_.width + x)];
+      Open& open = open_[place(x, y, outer_.width)];
       open.at = first_sample(x, y);
       if (!open.at || view_.ambient_rays == 0) continue;
       const int pattern = ((outer_.y + y) & 7) * 8 + ((outer_.x + x) & 7);
@@ -95,7 +95,7 @@ float Tile::ambience_at(const Sample& sample, int x, int y) const {
   float sum = 0, weights = 0;
   for (int py = y - kMargin; py < y + kMargin; ++py) {
     for (int px = x - kMargin; px < x + kMargin; ++px) {
-      const Open& open = open_[static_cast<size_t>(py * outer_.width + px)];
+      const Open& open = open_[place(px, py, outer_.width)];
       if (!open.at || !are_alike(*open.at, sample)) continue;
       sum += open.part;
       weights += 1;
@@ -149,7 +149,7 @@ long Tile::paint(Image& image) const {
   long covered = 0;
   for (int y = kMargin; y < kMargin + inner_.height; ++y) {
     for (int x = kMargin; x < kMargin + inner_.width; ++x) {
-      const Sample* first = open_[static_cast<size_t>(y * outer_.width + x)].at;
+      const Sample* first = open_[place(x, y, outer_.width)].at;
       if (!first) continue;
       ++covered;
       const Open middle{first, ambience_at(*first, x, y)};

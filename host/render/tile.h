@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "draw.h"
 #include "surface_view.h"
 
 namespace swage {
@@ -34,7 +35,7 @@ class Tile {
   };
 
   Sample sample_of(const Ray& ray, const RayHit& hit) const;
-  const Sample& sample(int x, int y) const { return samples_[static_cast<size_t>(y * columns_ + x)]; }
+  const Sample& sample(int x, int y) const { return samples_[place(x, y, columns_)]; }
   const Sample* first_sample(int x, int y) const;
   bool are_alike(const Sample& a, const Sample& b) const;
   float ambience_at(const Sample& sample, int x, int y) const;
