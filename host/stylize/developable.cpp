@@ -29,7 +29,8 @@ Positions developable_normals(const StylizePlan& plan, const Developable& style,
   Positions normals = area_vectors(positions, triangles);
   const Eigen::VectorXd areas = normals.rowwise().norm() / 2;
   normals = normalised(std::move(normals));
-  const double threshold = style.threshold / (plan.box.extent * plan.box.extent);
+  // As the authors' program: of twice the areas.
+  const double threshold = style.threshold / (2 * plan.box.extent * plan.box.extent);
   Transforms projections(positions.rows(), 9);
 #pragma omp parallel for schedule(static)
   for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {

@@ -14,15 +14,15 @@ constexpr double kSmallest = 1e-6;
 
 bool has_scale(const StylizePlan& plan) { return plan.options.energy == StylizeEnergy::acap; }
 
-/// The formula of appendix C, n unrotated as the authors' program has it. `rotations` become s R.
+/// The formula of appendix C as the authors' program has it: n unrotated above, and |n|² for n · t below.
 void scale_as_paper(const StylizePlan& plan, const Positions& positions, const Positions& targets, double lambda,
                     StylizeFit& fitted) {
   const PairsRest& rest = plan.elements.pairs;
 #pragma omp parallel for schedule(static)
   for (Eigen::Index n = 0; n < fitted.scales.size(); ++n) {
     Matrix rotation(fitted.matrices.row(n).data());
-    const double normals = lambda * rest.normal_weights[n] * rest.normals.row(n).dot(targets.row(n));
-    double above = normals, below = normals;
+    const double normals = lambda * rest.normal_weights[n];
+    double above = normals * rest.normals.row(n).dot(targets.row(n)), below = normals;
     const auto at = static_cast<size_t>(n);
     for (int p = rest.offsets[at]; p < rest.offsets[at + 1]; ++p) {
       const int i = rest.pairs(p, 0), j = rest.pairs(p, 1);

@@ -59,15 +59,16 @@ void centre_and_scale(Positions& positions, const Triangles& triangles) {
   positions /= std::sqrt(area);
 }
 
-/// L stays the style's, the masses follow the flow: (M + dt L) U⁺ = M U.
-Positions flowed(const Mesh& style) {
+/// L stays the style's, the masses follow the flow: (M + dt L) U⁺ = M U. Not `scaled`, the first step is one of the
+/// style's own size.
+Positions flowed(const Mesh& style, bool scaled) {
   const Positions cotangents =
       half_cotangents(style.positions, style.triangles, flat_triangles(style.positions, style.triangles));
   const SparseMatrix laplacian = kTimeStep * LaplacianSystem(triangle_elements(style, cotangents).pairs).laplacian();
   Eigen::SimplicialLDLT<SparseMatrix> factor;
   factor.analyzePattern(laplacian);
   Positions positions = style.positions;
-  centre_and_scale(positions, style.triangles);
+  if (scaled) centre_and_scale(positions, style.triangles);
   for (int step = 0; step < kStepLimit; ++step) {
     const Eigen::VectorXd mass = masses(positions, style.triangles);
     SparseMatrix matrix = laplacian;
@@ -100,7 +101,7 @@ Positions vertex_normals(const Positions& positions, const Triangles& triangles)
 SphereMap sphere_map(const Mesh& style, bool nearest) {
   check(style.positions, style.triangles);
   check_topology(style);
-  const Positions sphere = flowed(style);
+  const Positions sphere = flowed(style, !nearest);
   const Positions directions = normalised(sphere);
   const int folded = folded_triangles(directions, style.triangles);
   if (folded > 0) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "measures.h"
@@ -116,15 +117,20 @@ ClosestNormals closest_normals(const Mesh& style, double tolerance) {
   check(style.positions, style.triangles);
   const Positions all = unit_normals(style.positions, style.triangles);
   const double least_cosine = std::cos(tolerance * std::numbers::pi / 180);
-  Positions distinct(all.rows(), 3);
-  Eigen::Index count = 0;
+  std::vector<RowVector3d> distinct;
   for (const auto& normal : all.rowwise()) {
-    if (normal.isZero(0)) continue;
-    const bool is_there = count > 0 && (distinct.topRows(count) * normal.transpose()).maxCoeff() >= least_cosine;
-    if (!is_there) distinct.row(count++) = normal;
+    const bool is_there = std::any_of(distinct.begin(), distinct.end(),
+                                      [&](const RowVector3d& other) { return other.dot(normal) >= least_cosine; });
+    if (!is_there && !normal.isZero(0)) distinct.push_back(normal);
   }
-  if (count == 0) throw InvalidInput("closest_normals: style: no triangle has an area");
-  return {distinct.topRows(count)};
+  if (distinct.empty()) throw InvalidInput("closest_normals: style: no triangle has an area");
+  // Of several that are as near, the first is taken: the authors' program has them in this order.
+  std::sort(distinct.begin(), distinct.end(), [](const RowVector3d& a, const RowVector3d& b) {
+    return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);
+  });
+  ClosestNormals result{Positions(static_cast<Eigen::Index>(distinct.size()), 3)};
+  for (size_t i = 0; i < distinct.size(); ++i) result.normals.row(static_cast<Eigen::Index>(i)) = distinct[i];
+  return result;
 }
 
 Mesh style_shape(StyleShape shape) {

@@ -36,14 +36,14 @@ struct SphereMap {
 struct Developable {
   double tau = 0.005;    ///< [0, 1/2]: vertices whose normals' second share of spread is below are flat, others creases
                          ///< or bent one way. The larger, the fewer creases.
-  double threshold = 0;  ///< Above 0 in place of tau: the second spread itself, in mesh units squared, as the authors'
-                         ///< program compares it.
+  double threshold = 0;  ///< Above 0 in place of tau: the second spread itself, mesh units squared, of twice the
+                         ///< areas, as the authors' program compares it.
 };
 
 using Style = std::variant<ClosestNormals, GivenNormals, SphereMap, Developable>;
 
-/// The distinct normals of a mesh's triangles, to a degree of `tolerance`. Throws InvalidInput where check(positions,
-/// triangles) does or no triangle has an area.
+/// The distinct normals of a mesh's triangles, farther apart than `tolerance`, degrees. Throws InvalidInput where
+/// check(positions, triangles) does or no triangle has an area.
 ClosestNormals closest_normals(const Mesh& style, double tolerance = 1e-3);
 
 /// A style that flows to a sphere by conformalised mean curvature flow. Throws InvalidInput where check(positions,
