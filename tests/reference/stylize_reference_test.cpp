@@ -16,7 +16,7 @@ namespace {
 const std::filesystem::path kFolder = "oracle/stylize";
 
 struct Expected {
-  const char* name;   // Of its files.
+  const char* name;  // Of its files.
   const char* shape;
   const char* style;  // A file, or "" for developable.
   StylizeEnergy energy;
