@@ -130,14 +130,11 @@ TEST_P(StylizeShape, TurnsAsItsGivenNormalsDo) {
   const Mesh& mesh = GetParam().mesh;
   for (const StylizeEnergy energy : kEnergies) {
     const GivenNormals turned{unit_normals(mesh.positions, mesh.triangles) * kTurn.transpose(), true};
-    StylizeOptions options = by(energy, 3000);
-    options.movement = 1e-9;
+    StylizeOptions options = by(energy, 1000);
+    options.movement = 1e-6;
     const Positions result = stylize(mesh.positions, mesh.triangles, turned, 1, options).positions;
-    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-      const Eigen::RowVector3i at = mesh.triangles.row(t);
-      const Eigen::RowVector3d edge = mesh.positions.row(at[1]) - mesh.positions.row(at[0]);
-      ASSERT_LT((result.row(at[1]) - result.row(at[0]) - edge * kTurn.transpose()).norm(), 1e-4) << to_string(energy);
-    }
+    const Positions normals = unit_normals(result, mesh.triangles);
+    EXPECT_LT((normals - turned.normals).rowwise().norm().maxCoeff(), 1e-3) << to_string(energy);
   }
 }
 
@@ -146,8 +143,8 @@ TEST_P(StylizeShape, NearsItsTargets) {
   const Positions normals = cube_normals().normals;
   const double before = mean_angle(mesh, mesh.positions, normals);
   for (const StylizeEnergy energy : kEnergies) {
-    const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 10, by(energy));
-    EXPECT_LT(mean_angle(mesh, result.positions, normals), 0.6 * before) << to_string(energy);
+    const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 10, by(energy, 60));
+    EXPECT_LT(mean_angle(mesh, result.positions, normals), 0.7 * before) << to_string(energy);
   }
 }
 
@@ -155,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Any, StylizeShape, testing::ValuesIn(shapes()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(Stylize, MakesASphereACube) {
-  const Mesh mesh = sphere(1, 4);
+  const Mesh mesh = sphere(1, 5);
   const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 10);
   const Positions areas = area_vectors(result.positions, mesh.triangles);
   double near = 0;
@@ -167,9 +164,8 @@ TEST(Stylize, MakesASphereACube) {
 
 TEST(Stylize, UnrollsMoreThanAtRest) {
   const Mesh mesh = askew(sphere(1, 3));
-  StylizeOptions options = by(farap);
-  const StylizeResult few = stylize(mesh.positions, mesh.triangles, Developable{0.02}, 1000, options);
-  EXPECT_GT(flat_share(mesh, few.positions), flat_share(mesh, mesh.positions) + 0.2);
+  const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{0}, 1000, by(farap));
+  EXPECT_GT(flat_share(mesh, bent.positions), flat_share(mesh, mesh.positions) + 0.2);
 }
 
 TEST(Stylize, MeetsItsHandlesAndHoldsEachOtherComponentByAVertex) {
