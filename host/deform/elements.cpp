@@ -3,73 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <tuple>
+
+#include "spokes_and_rims.h"
 
 namespace swage {
 namespace {
 
-using Eigen::RowVector3d;
 using Eigen::Vector3d;
-
-struct WeightedEdge {
-  int first, second;  // First below second.
-  double weight;
-};
-
-/// Elements one after another. An edge added twice to one is there once, of both weights.
-class ElementList {
- public:
-  explicit ElementList(Eigen::Index vertex_count) : of_vertex_(static_cast<size_t>(vertex_count), -1) {}
-
-  void add(int i, int j, double weight) { open_.push_back({std::min(i, j), std::max(i, j), weight}); }
-
-  void close() {
-    std::sort(open_.begin(), open_.end(),
-              [](const auto& a, const auto& b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
-    for (size_t i = 0; i < open_.size(); ++i) {
-      const bool again = i > 0 && open_[i].first == open_[i - 1].first && open_[i].second == open_[i - 1].second;
-      if (again) {
-        edges_.back().weight += open_[i].weight;
-      } else {
-        edges_.push_back(open_[i]);
-      }
-    }
-    open_.clear();
-    offsets_.push_back(static_cast<int>(edges_.size()));
-  }
-
-  int next() const { return static_cast<int>(offsets_.size()) - 1; }
-  int& of_vertex(int v) { return of_vertex_[static_cast<size_t>(v)]; }
-
-  Elements take(const Positions& vertices) {
-    Elements elements;
-    PairsRest& pairs = elements.pairs;
-    pairs.vertices = vertices;
-    pairs.offsets = std::move(offsets_);
-    const auto count = static_cast<Eigen::Index>(edges_.size());
-    pairs.pairs.resize(count, 2);
-    pairs.weights.resize(count);
-    for (Eigen::Index p = 0; p < count; ++p) {
-      const WeightedEdge& edge = edges_[static_cast<size_t>(p)];
-      pairs.pairs.row(p) << edge.first, edge.second;
-      pairs.weights[p] = edge.weight;
-    }
-    elements.of_vertex = std::move(of_vertex_);
-    return elements;
-  }
-
- private:
-  std::vector<WeightedEdge> open_, edges_;
-  std::vector<int> offsets_{0}, of_vertex_;
-};
-
-/// Adds the sides of triangles around a vertex.
-void add_star(const Triangles& triangles, const Positions& weights, const Lists::Range& around, double factor,
-              ElementList& list) {
-  for (const int t : around) {
-    for (int k = 0; k < 3; ++k) list.add(triangles(t, k), triangles(t, (k + 1) % 3), factor * weights(t, k));
-  }
-}
 
 /// Of a tetrahedron's edge: a sixth of the length of the edge that faces it, from a to b, times the cotangent of the
 /// angle there, which the faces with c and with d make. All six sum to the volume times |gradient|² of a linear
@@ -146,45 +86,6 @@ Elements with_edges(const Positions& vertices, const PairsRest& pairs,
 }
 
 }  // namespace
-
-Positions half_cotangents(const Positions& positions, const Triangles& triangles, const std::vector<char>& is_flat) {
-  Positions result = Positions::Constant(triangles.rows(), 3, 0.5 / std::sqrt(3.0));
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    if (is_flat[static_cast<size_t>(t)] != 0) continue;
-    for (int k = 0; k < 3; ++k) {
-      const RowVector3d facing = positions.row(triangles(t, (k + 2) % 3));
-      const RowVector3d a = positions.row(triangles(t, k)) - facing,
-                        b = positions.row(triangles(t, (k + 1) % 3)) - facing;
-      result(t, k) = a.dot(b) / (2 * a.cross(b).norm());
-    }
-  }
-  return result;
-}
-
-Elements triangle_elements(const Mesh& mesh, double weight) {
-  ElementList list(mesh.positions.rows());
-  for (const auto& triangle : mesh.triangles.rowwise()) {
-    for (int k = 0; k < 3; ++k) {
-      list.of_vertex(triangle[k]) = list.next();
-      list.add(triangle[k], triangle[(k + 1) % 3], weight);
-    }
-    list.close();
-  }
-  return list.take(mesh.positions);
-}
-
-Elements vertex_elements(const Mesh& mesh, const std::vector<char>& is_flat) {
-  const auto count = static_cast<int>(mesh.positions.rows());
-  const Positions weights = half_cotangents(mesh.positions, mesh.triangles, is_flat);
-  const Lists around = triangles_of_vertices(mesh.triangles, count);
-  ElementList list(count);
-  for (int v = 0; v < count; ++v) {
-    list.of_vertex(v) = list.next();
-    add_star(mesh.triangles, weights, around[v], 1, list);
-    list.close();
-  }
-  return list.take(mesh.positions);
-}
 
 Elements tetrahedron_elements(const Positions& vertices, const Tetrahedra& tetrahedra, const Triangles& triangles,
                               const std::vector<char>& is_flat, double thickness) {

@@ -1,32 +1,14 @@
-// What keeps its shape: elements and their edges.
+// The elements of a filling, and of what joins components.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "adjacency.h"
-#include "cancel.h"
+#include "element_list.h"
 #include "swage/mesh.h"
 #include "swage/scaffold.h"
-#include "swage/steps.h"
 #include "tie.h"
 
 namespace swage {
-
-struct Elements {
-  PairsRest pairs;             ///< Its vertices: the mesh's, then a scaffold's, then a filling's.
-  std::vector<int> of_vertex;  ///< An element that has the vertex; of vertices of none, -1.
-};
-
-/// #T × 3: half the cotangent of the angle that faces each side; side k joins corners k and k + 1. Of triangles without
-/// area, which have none, an equilateral one's.
-Positions half_cotangents(const Positions& positions, const Triangles& triangles, const std::vector<char>& is_flat);
-
-/// A triangle's three sides, of the same weight each.
-Elements triangle_elements(const Mesh& mesh, double weight);
-
-/// Of each vertex the sides of its triangles, its own and those opposite, by their cotangents: spokes and rims.
-Elements vertex_elements(const Mesh& mesh, const std::vector<char>& is_flat);
 
 /// A tetrahedron's six edges, by their cotangents (Chao et al. 2010), and for triangles that are on no tetrahedron the
 /// sides by theirs, as a shell of the thickness. `vertices`: the mesh's first.

@@ -5,8 +5,6 @@
 // vertex's triangles, a tetrahedron) and in what M may be: the identity, a rotation, a similarity.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,29 +13,15 @@
 
 #include "elements.h"
 #include "given.h"
+#include "held_points.h"
 #include "holds.h"
+#include "laplacian_system.h"
 #include "measures.h"
 #include "pool.h"
 #include "stopwatch.h"
 #include "swage/deform.h"
 
 namespace swage {
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// Both sides of the vertices' system: laplacian * positions = turned_edges * (all matrices M', one below the other).
-struct GlobalSystem {
-  SparseMatrix laplacian;                                          ///< #V × #V
-  Eigen::SparseMatrix<double, Eigen::RowMajor> turned_edges = {};  ///< #V × 3 #N
-};
-
-/// The laplacian for a set of handles.
-struct HeldSystem {
-  std::vector<std::array<int, 3>> key;         ///< Vertices of the holds that it is for.
-  std::vector<int> fixed, free;                ///< Vertices; those that are fixed have their targets.
-  SparseMatrix coupling;                       ///< #free × #fixed
-  Eigen::SimplicialLDLT<SparseMatrix> factor;  ///< Of the free.
-};
 
 struct DeformSteps {
   std::unique_ptr<RotationStep> rotation;
@@ -54,7 +38,7 @@ struct DeformPlan {
 
   // Filled by prepare().
   Elements elements = {};  ///< In the unit box.
-  GlobalSystem system = {};
+  LaplacianSystem system = {};
   double mean_edge_length = 0;
   int components = 1, flat_triangles = 0;
   std::string told_components = "one", told_filling = {};
@@ -62,8 +46,7 @@ struct DeformPlan {
   bool prepared = false;
 
   std::mutex preparing = {};
-  std::mutex holding = {};
-  std::shared_ptr<const HeldSystem> held = {};  ///< For the handles last solved for.
+  LastHeld last_held = {};
   Pool<DeformSteps> workspaces = {};
 };
 
@@ -80,16 +63,10 @@ std::unique_ptr<DeformPlan> plan_of(Mesh mesh, const DeformOptions& options);
 bool prepare(DeformPlan& plan, const ProgressFn& progress);
 
 // global.cpp
-GlobalSystem global_system(const PairsRest& pairs);
-/// Its factor; the plan's where that is for the same handles.
-std::shared_ptr<const HeldSystem> held_system(DeformPlan& plan, const std::vector<Hold>& holds);
-/// The vertices that minimise the energy for the matrices. Targets in the unit box.
-Positions place_vertices(const DeformPlan& plan, const HeldSystem& held, const std::vector<Hold>& holds,
-                         const Transforms& matrices);
+/// For these handles; the plan's last where that is for the same.
+std::shared_ptr<const HeldLaplacian> held_laplacian(DeformPlan& plan, const HeldPoints& points);
 
 // energy.cpp
-/// Of the elements' edges.
-double edge_energy(const PairsRest& pairs, const Positions& positions, const Transforms& matrices);
 /// Of holds that are not met exactly.
 double hold_energy(const DeformOptions& options, const std::vector<Hold>& holds, const Positions& positions);
 

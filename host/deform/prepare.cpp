@@ -6,6 +6,7 @@
 #include "inside.h"
 #include "join.h"
 #include "plan.h"
+#include "spokes_and_rims.h"
 
 namespace swage {
 namespace {
@@ -35,7 +36,7 @@ Elements elements_of(DeformPlan& plan, const Mesh& unit_mesh, const std::vector<
                      const Poll& poll) {
   switch (plan.options.method) {
     case DeformMethod::poisson:
-      return triangle_elements(unit_mesh, 1 / plan.mean_edge_length);
+      return triangle_elements(unit_mesh, Positions::Constant(1, 3, 1 / plan.mean_edge_length));
     case DeformMethod::arap:
     case DeformMethod::conformal:
       return vertex_elements(unit_mesh, is_flat);
@@ -71,7 +72,7 @@ void make(DeformPlan& plan, const ProgressFn& progress) {
   plan.elements = elements_of(plan, unit_mesh, is_flat, vertices, poll);
   add_ties(vertices, joined.ties, plan.mean_edge_length, plan.elements);
   begin("system", 0.7);
-  plan.system = global_system(plan.elements.pairs);
+  plan.system = LaplacianSystem(plan.elements.pairs);
   plan.prepared = true;
 }
 

@@ -62,18 +62,13 @@ Transforms of_triangles(const DeformPlan& plan, const Transforms& matrices) {
   return result;
 }
 
-template <typename Sparse>
-std::size_t bytes(const Sparse& matrix) {
-  return static_cast<std::size_t>(matrix.nonZeros()) * (sizeof(double) + sizeof(int));
-}
-
 /// Without the backend's.
-std::map<std::string, std::size_t> bytes_by_part(const DeformPlan& plan, const HeldSystem& held) {
+std::map<std::string, std::size_t> bytes_by_part(const DeformPlan& plan, const HeldLaplacian& held) {
   const PairsRest& pairs = plan.elements.pairs;
   return {{"elements", pairs.offsets.size() * sizeof(int) +
                            static_cast<std::size_t>(pairs.weights.size()) * (sizeof(double) + 2 * sizeof(int))},
-          {"vertex_system", bytes(plan.system.laplacian) + bytes(plan.system.turned_edges) + bytes(held.coupling)},
-          {"factor", bytes(held.factor.matrixL().nestedExpression())}};
+          {"vertex_system", plan.system.bytes() + held.coupling_bytes()},
+          {"factor", held.factor_bytes()}};
 }
 
 void tell(const DeformPlan& plan, const Gesture& gesture, DeformResult& result) {
@@ -96,7 +91,8 @@ ProgressFn after_preparation(const ProgressFn& progress) {
 
 /// One solve's state.
 struct Iterate {
-  const HeldSystem& held;
+  const HeldLaplacian& held;
+  const HeldPoints& points;
   const std::vector<Hold>& holds;
   DeformSteps& work;
   Transforms matrices;
@@ -128,7 +124,7 @@ Report passes(const DeformPlan& plan, Iterate& iterate, const StopRule& stop, co
               Positions& positions) {
   Alternation steps;
   steps.place = [&](Positions& placed, const Poll&) {
-    placed = place_vertices(plan, iterate.held, iterate.holds, iterate.matrices);
+    placed = iterate.held.solve(plan.system.right_hand_sides(iterate.matrices), iterate.points);
     iterate.fits = false;
     iterate.energies.push_back(energy(plan, iterate, placed));
     return sum(iterate.energies.back());
@@ -160,11 +156,12 @@ DeformResult cancelled(const DeformPlan& plan, const DeformResult* from) {
 
 DeformResult solve_prepared(DeformPlan& plan, const std::vector<Hold>& holds, const DeformResult* from,
                             const ProgressFn& progress) {
-  const std::shared_ptr<const HeldSystem> held = held_system(plan, holds);
+  const HeldPoints points = held_points(plan.system, holds, plan.options.handle_weight);
+  const std::shared_ptr<const HeldLaplacian> held = held_laplacian(plan, points);
   const auto work = plan.workspaces.lend([&] { return workspace(plan); });
   Positions positions = start_of(plan, from);
-  Iterate iterate{*held, holds, *work, identities(plan.system.turned_edges.cols() / 3),
-                  Anderson(plan.options.acceleration_window)};
+  Iterate iterate{
+      *held, points, holds, *work, identities(plan.system.element_count()), Anderson(plan.options.acceleration_window)};
   if (from) fit_matrices(*work, positions, iterate.matrices);
   DeformResult result;
   result.report = passes(plan, iterate, stop_rule(plan, from), after_preparation(progress), positions);

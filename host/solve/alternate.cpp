@@ -53,7 +53,9 @@ Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& po
       report.best_pass = report.passes++;
       report.energies.push_back(energy);
       report.movements.push_back(largest_movement(start, positions));
-      if (const std::optional<Termination> end = ended(stop, report)) {
+      std::optional<Termination> end = ended(stop, report);
+      if (steps.moved_little && steps.moved_little(start, positions)) end = Termination::moved_little;
+      if (end) {
         report.stop = *end;
         break;
       }

@@ -16,6 +16,8 @@ struct Alternation {
   std::function<void(const Positions&, const Poll&)> fit;
   /// Where the next pass starts, after one that led from the first positions to the second; else where that ended.
   std::function<Positions(const Positions&, const Positions&, const Poll&)> next = {};
+  /// Whether a pass that led from the first positions to the second moved little, beside StopRule::movement.
+  std::function<bool(const Positions&, const Positions&)> moved_little = {};
 };
 
 /// Alternates from `positions` and leaves the best in them. Tests of StopRule are made between place and fit. A pass's

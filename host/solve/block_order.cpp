@@ -1,5 +1,4 @@
 // In what order a block system's groups are eliminated, and by what factor.
-#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -15,15 +14,6 @@ namespace {
 /// entries a column, by half, and slower at 53 and beyond, 1.6 to 12 times.
 FactorKind faster_kind(std::int64_t entries, std::int64_t columns) {
   return has_cholmod() && entries > 40 * columns ? FactorKind::supernodal : FactorKind::simplicial;
-}
-
-std::vector<int> elimination_order(const SparseMatrix& graph) {
-  // Nested dissection takes longer to find, and leaves a factor as large below 20,000 groups, 4 to 16 % smaller and
-  // made in up to half less time from 40,000 on.
-  if (has_cholmod() && graph.rows() >= 40000) return nested_dissection(graph);
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
-  return {order.indices().begin(), order.indices().end()};
 }
 
 }  // namespace

@@ -40,4 +40,7 @@ std::unique_ptr<Factor> supernodal_factor();
 /// An order of the graph's nodes, first to last, that fills a factor little. Found by METIS.
 std::vector<int> nested_dissection(const SparseMatrix& graph);
 
+/// An order that fills a factor little, however it is found in this build. Reads the upper triangle, diagonal included.
+std::vector<int> elimination_order(const SparseMatrix& graph);
+
 }  // namespace swage

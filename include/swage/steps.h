@@ -104,8 +104,9 @@ struct PairsRest {
 
 /// Closest rotations of weighted vector pairs (orthogonal Procrustes). For each element the rotation R, det R = 1, that
 /// minimises sum_p w_p |R a_p - b_p|² + w_n |R n - t|², with a the rest edge, b the edge now, n the rest normal and t
-/// the target of the normal. Where several rotations are equally good (flat, straight or empty elements), one of them.
-/// Scale-free. Never a reflection, never NaN for finite input.
+/// the target of the normal. A target may have any length, which multiplies its weight: the rotation that brings n
+/// nearest to t brings it nearest to t's direction. Where several rotations are equally good (flat, straight or empty
+/// elements), one of them. Scale-free. Never a reflection, never NaN for finite input.
 class RotationStep {
  public:
   virtual ~RotationStep() = default;

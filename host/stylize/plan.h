@@ -1,0 +1,92 @@
+// What a prepared stylization keeps, and the verbs that solve() is told in.
+//
+// It minimises sum over elements n of [sum over their edges p of w_p |R_n e0_p - e_p|² + lambda a_n |R_n n_n - t_n|²]
+// (eq. 3), e0 the edge at rest, n the rest normal, t the target of the normal: each pass the rotations for the vertices
+// and targets, then the vertices for the rotations, then the targets for the vertices.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "adjacency.h"
+#include "element_list.h"
+#include "given.h"
+#include "held_points.h"
+#include "laplacian_system.h"
+#include "measures.h"
+#include "pool.h"
+#include "stopwatch.h"
+#include "swage/stylize.h"
+
+namespace swage {
+
+struct StylizeSteps {
+  std::unique_ptr<RotationStep> rotation;
+  std::unique_ptr<SimilarityStep> similarity;  ///< In its place, of acap with exact scales.
+};
+
+/// What the local step finds.
+struct StylizeFit {
+  Transforms matrices;     ///< #N × 9: s R
+  Eigen::VectorXd scales;  ///< #N: s; 1 but for acap.
+};
+
+struct StylizePlan {
+  StylizeOptions options;
+  std::optional<Given> given;  ///< Where what follows is not as given.
+  Mesh mesh;                   ///< Mesh units.
+  SurfaceCounts counts;
+  UnitBox box;
+  Edges edges;
+
+  // Filled by prepare(), in the unit box.
+  Elements elements = {};
+  Lists triangles_around = {};  ///< Each vertex.
+  std::vector<int> component = {};
+  std::vector<int> anchors = {};  ///< Of each component a vertex.
+  LaplacianSystem system = {};
+  int flat_triangles = 0;
+  double prepare_seconds = 0;
+  bool prepared = false;
+
+  std::mutex preparing = {};
+  LastHeld last_held = {};
+  Pool<StylizeSteps> workspaces = {};
+
+  bool of_triangles() const { return options.energy == StylizeEnergy::farap; }
+};
+
+/// Of a whole call's progress, what preparation is.
+constexpr double kPrepared = 0.3;
+
+// check.cpp
+void check_options(const StylizeOptions& options);
+void check_style(const StylizePlan& plan, const Style& style, double lambda);
+
+// prepare.cpp
+std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options);
+/// Once. False where `progress` cancelled: another call begins anew.
+bool prepare(StylizePlan& plan, const ProgressFn& progress);
+
+// hold.cpp
+/// The handles, and of components without any their anchors. In the unit box.
+HeldPoints points_held(const StylizePlan& plan, const Gesture& handles);
+/// The plan's last where that is for the same points.
+std::shared_ptr<const HeldLaplacian> held_laplacian(StylizePlan& plan, const HeldPoints& points);
+
+// fit.cpp
+std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan);
+StylizeFit unmoved(Eigen::Index element_count);
+/// The local step, from what it found before.
+void fit(const StylizePlan& plan, StylizeSteps& steps, const Positions& positions, const Positions& targets,
+         double lambda, StylizeFit& fitted);
+
+// energy.cpp
+/// In the unit box.
+StylizeTerms energy(const StylizePlan& plan, const Positions& positions, const Positions& targets,
+                    const StylizeFit& fitted);
+
+}  // namespace swage

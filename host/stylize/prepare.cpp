@@ -1,0 +1,88 @@
+// All that depends on the rest shape alone.
+#include <algorithm>
+#include <utility>
+
+#include "cancel.h"
+#include "element_normals.h"
+#include "flat.h"
+#include "plan.h"
+#include "spokes_and_rims.h"
+
+namespace swage {
+namespace {
+
+Elements elements_of(const StylizePlan& plan, const Mesh& unit_mesh, const std::vector<char>& is_flat) {
+  if (!plan.of_triangles()) return vertex_elements(unit_mesh, is_flat);
+  return triangle_elements(unit_mesh, half_cotangents(unit_mesh.positions, unit_mesh.triangles, is_flat));
+}
+
+/// Barycentric areas, a third of the triangles around, of vertices.
+Eigen::VectorXd areas_of_elements(const StylizePlan& plan, const Mesh& unit_mesh) {
+  const Eigen::VectorXd areas = area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm() / 2;
+  if (plan.of_triangles()) return areas;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(unit_mesh.positions.rows());
+  for (int v = 0; v < result.size(); ++v) {
+    for (const int t : plan.triangles_around[v]) result[v] += areas[t] / 3;
+  }
+  return result;
+}
+
+/// Of each component the first vertex of its first triangle: the authors' F(0, 0).
+std::vector<int> anchors_of(const Mesh& mesh, const std::vector<int>& component) {
+  std::vector<int> anchors(static_cast<size_t>(1 + *std::max_element(component.begin(), component.end())), -1);
+  for (const auto& triangle : mesh.triangles.rowwise()) {
+    int& anchor = anchors[static_cast<size_t>(component[static_cast<size_t>(triangle[0])])];
+    if (anchor < 0) anchor = triangle[0];
+  }
+  return anchors;
+}
+
+void make(StylizePlan& plan, const ProgressFn& progress) {
+  const auto begin = [&](const char* stage, double part) {
+    if (progress && !progress({stage, 0, plan.options.pass_limit, part * kPrepared, 0})) throw Cancelled();
+  };
+  const Stopwatch watch(plan.prepare_seconds);
+  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
+  const auto vertex_count = static_cast<int>(unit_mesh.positions.rows());
+  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
+  plan.component = components(unit_mesh.triangles, vertex_count);
+  plan.anchors = anchors_of(unit_mesh, plan.component);
+  plan.triangles_around = triangles_of_vertices(unit_mesh.triangles, vertex_count);
+  begin("elements", 0);
+  plan.elements = elements_of(plan, unit_mesh, is_flat);
+  plan.elements.pairs.normals = element_normals(plan, unit_mesh.positions);
+  plan.elements.pairs.normal_weights = areas_of_elements(plan, unit_mesh);
+  begin("system", 0.3);
+  plan.system = LaplacianSystem(plan.elements.pairs);
+  begin("factor", 0.5);
+  held_laplacian(plan, points_held(plan, {}));
+  plan.prepared = true;
+}
+
+}  // namespace
+
+std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options) {
+  Surface surface = surface_given(mesh, "Stylize");
+  const SurfaceCounts counts = surface.counts;
+  std::optional<Given> given;
+  if (!surface.is_as_given()) given.emplace(std::move(mesh), surface, false);
+  StylizeOptions own = options;
+  if (!own.backend) own.backend = cpu_backend();
+  const UnitBox box = unit_box(surface.mesh.positions);
+  return std::unique_ptr<StylizePlan>(new StylizePlan{std::move(own), std::move(given), std::move(surface.mesh), counts,
+                                                      box, std::move(surface.edges)});
+}
+
+bool prepare(StylizePlan& plan, const ProgressFn& progress) {
+  const std::lock_guard lock(plan.preparing);
+  if (plan.prepared) return true;
+  try {
+    make(plan, progress);
+    return true;
+  } catch (const Cancelled&) {
+    return false;
+  }
+}
+
+}  // namespace swage

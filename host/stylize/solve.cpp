@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <utility>
+
+#include "alternate.h"
+#include "plan.h"
+#include "targets.h"
+#include "warnings.h"
+
+namespace swage {
+namespace {
+
+const Mesh& given_mesh(const StylizePlan& plan) { return plan.given ? plan.given->mesh() : plan.mesh; }
+
+/// Of each triangle its own, or the mean of its corners'.
+Transforms of_triangles(const StylizePlan& plan, const Transforms& matrices) {
+  if (plan.of_triangles()) return matrices;
+  Transforms result = Transforms::Zero(plan.mesh.triangles.rows(), 9);
+  for (Eigen::Index t = 0; t < result.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) result.row(t) += matrices.row(plan.mesh.triangles(t, k)) / 3;
+  }
+  return result;
+}
+
+/// max|U - U_prev| / max|U - V|, and whether nothing moves but by rounding.
+bool moved_little(const StylizePlan& plan, const Positions& start, const Positions& end) {
+  constexpr double kRounding = 1e-13;  // Of the unit box.
+  const double moved = (end - start).cwiseAbs().maxCoeff();
+  const double in_all = (end - plan.elements.pairs.vertices).cwiseAbs().maxCoeff();
+  return moved < plan.options.movement * in_all || moved <= kRounding;
+}
+
+StopRule stop_rule(const StylizePlan& plan) {
+  StopRule stop;
+  stop.by_energy = false;
+  stop.pass_limit = plan.options.pass_limit;
+  return stop;
+}
+
+void tell(const StylizePlan& plan, const HeldLaplacian& held, Report& report) {
+  const PairsRest& pairs = plan.elements.pairs;
+  report.seconds["precompute"] = plan.prepare_seconds;
+  report.bytes = {{"elements", pairs.offsets.size() * sizeof(int) +
+                                   static_cast<std::size_t>(pairs.weights.size()) * (sizeof(double) + 2 * sizeof(int))},
+                  {"vertex_system", plan.system.bytes() + held.coupling_bytes()},
+                  {"factor", held.factor_bytes()}};
+  if (report.stop == Termination::cancelled) return;
+  warn_of_shape({plan.counts, plan.edges, plan.flat_triangles, 1}, report);
+  if (plan.anchors.size() > 1) {
+    report.warnings.push_back(
+        std::to_string(plan.anchors.size()) +
+        " components that no triangle joins: those without a handle keep their place by a vertex");
+  }
+}
+
+ProgressFn after_preparation(const ProgressFn& progress) {
+  if (!progress) return progress;
+  return [&progress](Progress p) {
+    p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
+    return progress(p);
+  };
+}
+
+StylizeResult cancelled(const StylizePlan& plan) {
+  StylizeResult result{given_mesh(plan).positions, {}, {}};
+  result.report.stop = Termination::cancelled;
+  return result;
+}
+
+StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambda, const Gesture& handles,
+                             const ProgressFn& progress) {
+  const HeldPoints points = points_held(plan, handles);
+  const std::shared_ptr<const HeldLaplacian> held = held_laplacian(plan, points);
+  const auto steps = plan.workspaces.lend([&] { return steps_of(plan); });
+  const Targets targets = targets_of(plan, style);
+
+  StylizeResult result;
+  Positions positions = plan.elements.pairs.vertices;
+  Positions target_normals = targets.find(positions);
+  StylizeFit fitted = unmoved(plan.system.element_count());
+  fit(plan, *steps, positions, target_normals, lambda, fitted);
+
+  Alternation passes;
+  passes.place = [&](Positions& placed, const Poll&) {
+    placed = held->solve(plan.system.right_hand_sides(fitted.matrices), points);
+    StylizeTerms terms = energy(plan, placed, target_normals, fitted);
+    terms.shape *= plan.box.extent * plan.box.extent;
+    terms.normals *= plan.box.extent * plan.box.extent;
+    result.passes.push_back(terms);
+    return terms.shape + lambda * terms.normals;
+  };
+  passes.moved_little = [&](const Positions& start, const Positions& end) { return moved_little(plan, start, end); };
+  passes.fit = [&](const Positions& placed, const Poll&) {
+    if (targets.dynamic) target_normals = targets.find(placed);
+    fit(plan, *steps, placed, target_normals, lambda, fitted);
+  };
+  result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
+
+  if (result.report.passes == 0) return cancelled(plan);
+  const StylizeTerms& last = result.passes.back();
+  result.report.energy_by_term = {{"shape", last.shape}, {"normals", lambda * last.normals}};
+  const Positions solved = plan.box.back(positions);
+  result.positions = plan.given ? plan.given->back(solved, of_triangles(plan, fitted.matrices)) : solved;
+  if (plan.given) plan.given->place_loose(handles, result.positions);
+  tell(plan, *held, result.report);
+  return result;
+}
+
+}  // namespace
+
+Stylize::Stylize(const PositionsRef& positions, const TrianglesRef& triangles, const StylizeOptions& options) {
+  check(positions, triangles);
+  check_options(options);
+  plan_ = plan_of({positions, triangles}, options);
+}
+
+Stylize::~Stylize() = default;
+Stylize::Stylize(Stylize&&) noexcept = default;
+Stylize& Stylize::operator=(Stylize&&) noexcept = default;
+
+bool Stylize::prepare(const ProgressFn& progress) { return swage::prepare(*plan_, progress); }
+
+StylizeResult Stylize::solve(const Style& style, double lambda, const Gesture& handles, const ProgressFn& progress) {
+  const Mesh& given = given_mesh(*plan_);
+  check_style(*plan_, style, lambda);
+  if (!handles.targets.empty()) check(handles, given.positions, given.triangles);
+  if (!prepare(progress)) return cancelled(*plan_);
+  double seconds = 0;
+  StylizeResult result;
+  {
+    const Stopwatch watch(seconds);
+    result = solve_prepared(*plan_, style, lambda, handles, progress);
+  }
+  result.report.seconds["solve"] = seconds;
+  return result;
+}
+
+StylizeResult stylize(const PositionsRef& positions, const TrianglesRef& triangles, const Style& style, double lambda,
+                      const StylizeOptions& options, const Gesture& handles, const ProgressFn& progress) {
+  return Stylize(positions, triangles, options).solve(style, lambda, handles, progress);
+}
+
+}  // namespace swage

@@ -1,0 +1,68 @@
+#include "targets.h"
+
+#include <memory>
+#include <utility>
+
+#include "directions.h"
+#include "element_normals.h"
+#include "sphere.h"
+
+namespace swage {
+namespace {
+
+Targets to(const StylizePlan& plan, const ClosestNormals& style) {
+  const auto directions = std::make_shared<const Directions>(style.normals);
+  const auto find = [&plan, directions](const Positions& positions) {
+    Positions normals = element_normals(plan, positions);
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index n = 0; n < normals.rows(); ++n) {
+      normals.row(n) = (*directions)[directions->nearest(normals.row(n).transpose())];
+    }
+    return normals;
+  };
+  return {find, style.dynamic};
+}
+
+/// The given's, of the elements of the surface that is solved.
+Positions of_elements(const StylizePlan& plan, const GivenNormals& style) {
+  Positions normals = normalised(style.normals);
+  if (plan.given) {
+    normals = Positions(normals(style.of_triangles ? plan.given->triangles() : plan.given->vertices(), Eigen::all));
+  }
+  if (style.of_triangles == plan.of_triangles()) return normals;
+  const Triangles& triangles = plan.mesh.triangles;
+  if (style.of_triangles) {
+    const Eigen::VectorXd areas = area_vectors(plan.elements.pairs.vertices, triangles).rowwise().norm();
+    normals = sums_around(plan, areas.asDiagonal() * normals);
+  } else {
+    normals = Positions(normals(triangles.col(0), Eigen::all) + normals(triangles.col(1), Eigen::all) +
+                        normals(triangles.col(2), Eigen::all));
+  }
+  return normalised(std::move(normals));
+}
+
+Targets to(const StylizePlan& plan, const GivenNormals& style) {
+  return {[&](const Positions&) { return of_elements(plan, style); }, false};
+}
+
+Targets to(const StylizePlan& plan, const SphereMap& style) {
+  return {[&](const Positions&) { return on_sphere(style, plan.elements.pairs.normals); }, false};
+}
+
+Targets to(const StylizePlan& plan, const Developable& style) {
+  const auto find = [&](const Positions& positions) {
+    const Positions of_triangles = developable_normals(plan, style, positions);
+    if (plan.of_triangles()) return of_triangles;
+    const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
+    return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));
+  };
+  return {find, true};
+}
+
+}  // namespace
+
+Targets targets_of(const StylizePlan& plan, const Style& style) {
+  return std::visit([&](const auto& one) { return to(plan, one); }, style);
+}
+
+}  // namespace swage

@@ -1,0 +1,368 @@
+// Stylizing: what the method promises, on generated shapes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "adjacency.h"
+#include "measures.h"
+#include "opencl_device.h"
+#include "shapes.h"
+#include "swage/error.h"
+#include "swage/stylize.h"
+
+namespace swage::test {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using enum StylizeEnergy;
+
+const Matrix3d kTurn = AngleAxisd(1.1, Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
+const StylizeEnergy kEnergies[] = {arap, farap, acap};
+
+StylizeOptions by(StylizeEnergy energy, int pass_limit = 350) {
+  StylizeOptions options;
+  options.energy = energy;
+  options.pass_limit = pass_limit;
+  return options;
+}
+
+ClosestNormals cube_normals(bool dynamic = true) {
+  ClosestNormals style = closest_normals(style_shape(StyleShape::cube));
+  style.dynamic = dynamic;
+  return style;
+}
+
+/// Of the positions, about no axis of the cube: no two of its normals are as near.
+Mesh askew(Mesh mesh) {
+  mesh.positions = mesh.positions * AngleAxisd(0.7, Vector3d(1, 0.4, 0.3).normalized()).toRotationMatrix();
+  return mesh;
+}
+
+double far_apart(const Positions& one, const Positions& other) {
+  return (one - other).rowwise().norm().maxCoeff() / box_diagonal(one);
+}
+
+/// Degrees between triangles and the nearest of the normals, mean by area.
+double mean_angle(const Mesh& mesh, const Positions& positions, const Positions& normals) {
+  const Positions areas = area_vectors(positions, mesh.triangles), units = unit_normals(positions, mesh.triangles);
+  double sum = 0, all = 0;
+  for (Eigen::Index t = 0; t < areas.rows(); ++t) {
+    const double cosine = std::min(1.0, (normals * units.row(t).transpose()).maxCoeff());
+    sum += areas.row(t).norm() * std::acos(cosine) * 180 / std::numbers::pi;
+    all += areas.row(t).norm();
+  }
+  return sum / all;
+}
+
+/// Share of inner vertices whose angles sum to 2 pi.
+double flat_share(const Mesh& mesh, const Positions& positions) {
+  Eigen::VectorXd defects = Eigen::VectorXd::Constant(positions.rows(), 2 * std::numbers::pi);
+  for (const auto& t : mesh.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d a = (positions.row(t[(k + 1) % 3]) - positions.row(t[k])).transpose();
+      const Vector3d b = (positions.row(t[(k + 2) % 3]) - positions.row(t[k])).transpose();
+      defects[t[k]] -= std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  }
+  return static_cast<double>((defects.array().abs() < 1e-3).count()) / static_cast<double>(positions.rows());
+}
+
+struct Shape {
+  std::string name;
+  Mesh mesh;
+};
+
+std::vector<Shape> shapes() {
+  return {{"sphere", askew(sphere(1, 2))},
+          {"torus", askew(torus(1, 0.4, 24, 12))},
+          {"box", askew(box({1, 2, 0.5}, 4))},
+          {"sheet", askew(sheet(6))},
+          {"apart", askew(joined(sphere(1, 2), transformed(sphere(1, 2), 0.5, {3, 0, 0})))}};
+}
+
+class StylizeShape : public testing::TestWithParam<Shape> {};
+
+TEST_P(StylizeShape, StaysAsItIsWithoutWeight) {
+  const Mesh& mesh = GetParam().mesh;
+  for (const StylizeEnergy energy : kEnergies) {
+    const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 0, by(energy));
+    EXPECT_LT(far_apart(mesh.positions, result.positions), 1e-12) << to_string(energy);
+    EXPECT_EQ(result.report.stop, Termination::moved_little) << to_string(energy);
+  }
+}
+
+TEST_P(StylizeShape, GoesWithMotionsOfItselfAndItsStyle) {
+  const Mesh& mesh = GetParam().mesh;
+  Mesh moved = mesh;
+  moved.positions = (2.5 * mesh.positions * kTurn.transpose()).rowwise() + Eigen::RowVector3d(0.7, -1.2, 0.4);
+  ClosestNormals style = cube_normals(), turned = style;
+  turned.normals = style.normals * kTurn.transpose();
+  for (const StylizeEnergy energy : kEnergies) {
+    const Positions here = stylize(mesh.positions, mesh.triangles, style, 1, by(energy, 5)).positions;
+    const Positions there = stylize(moved.positions, moved.triangles, turned, 1, by(energy, 5)).positions;
+    const Positions expected = (2.5 * here * kTurn.transpose()).rowwise() + Eigen::RowVector3d(0.7, -1.2, 0.4);
+    EXPECT_LT(far_apart(expected, there), 1e-9) << to_string(energy);
+  }
+}
+
+TEST_P(StylizeShape, NeverRaisesTheEnergyForConstantTargets) {
+  const Mesh& mesh = GetParam().mesh;
+  for (const StylizeEnergy energy : kEnergies) {
+    for (const double lambda : {0.1, 10.0}) {
+      const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(false), lambda, by(energy, 60));
+      const std::vector<double>& energies = result.report.energies;
+      for (size_t i = 1; i < energies.size(); ++i) {
+        EXPECT_LE(energies[i], energies[i - 1] * (1 + 1e-12)) << to_string(energy) << ", pass " << i;
+      }
+    }
+  }
+}
+
+TEST_P(StylizeShape, TurnsAsItsGivenNormalsDo) {
+  const Mesh& mesh = GetParam().mesh;
+  for (const StylizeEnergy energy : kEnergies) {
+    const GivenNormals turned{unit_normals(mesh.positions, mesh.triangles) * kTurn.transpose(), true};
+    StylizeOptions options = by(energy, 1000);
+    options.movement = 1e-6;
+    const Positions result = stylize(mesh.positions, mesh.triangles, turned, 1, options).positions;
+    const Positions normals = unit_normals(result, mesh.triangles);
+    EXPECT_LT((normals - turned.normals).rowwise().norm().maxCoeff(), 1e-3) << to_string(energy);
+  }
+}
+
+TEST_P(StylizeShape, NearsItsTargets) {
+  const Mesh& mesh = GetParam().mesh;
+  const Positions normals = cube_normals().normals;
+  const double before = mean_angle(mesh, mesh.positions, normals);
+  for (const StylizeEnergy energy : kEnergies) {
+    const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 10, by(energy, 60));
+    EXPECT_LT(mean_angle(mesh, result.positions, normals), 0.7 * before) << to_string(energy);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Any, StylizeShape, testing::ValuesIn(shapes()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST(Stylize, MakesASphereACube) {
+  const Mesh mesh = sphere(1, 5);
+  const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 10);
+  const Positions areas = area_vectors(result.positions, mesh.triangles);
+  double near = 0;
+  for (const auto& area : areas.rowwise()) {
+    if (area.cwiseAbs().maxCoeff() >= std::cos(10 * std::numbers::pi / 180) * area.norm()) near += area.norm();
+  }
+  EXPECT_GE(near, 0.9 * areas.rowwise().norm().sum());
+}
+
+TEST(Stylize, UnrollsMoreThanAtRest) {
+  const Mesh mesh = askew(sphere(1, 3));
+  const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{0}, 1000, by(farap));
+  EXPECT_GT(flat_share(mesh, bent.positions), flat_share(mesh, mesh.positions) + 0.2);
+}
+
+TEST(Stylize, MeetsItsHandlesAndHoldsEachOtherComponentByAVertex) {
+  const Mesh mesh = joined(sphere(1, 2), transformed(sphere(1, 2), 0.5, {3, 0, 0}));
+  const auto half = static_cast<int>(mesh.positions.rows() / 2);
+  Gesture handles;
+  handles.add(3, {1, 1, 1});
+  handles.add(20, {-1, 0, 0.5});
+  const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 1, by(arap), handles);
+  for (const auto& [vertex, target] : handles.targets) {
+    EXPECT_LT((result.positions.row(vertex).transpose() - target).norm(), 1e-12);
+  }
+  const auto still = (result.positions - mesh.positions).bottomRows(half).rowwise().norm();
+  EXPECT_LT(still.minCoeff(), 1e-12);
+  EXPECT_LT(still.maxCoeff(), 0.5);
+  EXPECT_THAT(result.report.warnings, testing::Contains(HasSubstr("2 components")));
+}
+
+TEST(Stylize, TakesAnyListOfTriangles) {
+  Mesh mesh = joined(sheet(4), sphere(0.3, 1));
+  const Eigen::Index triangles = mesh.triangles.rows(), vertices = mesh.positions.rows();
+  mesh.triangles.conservativeResize(triangles + 2, 3);
+  mesh.triangles.row(triangles) = mesh.triangles.row(3);
+  mesh.triangles.row(triangles + 1) << 0, 1, 0;
+  mesh.positions.conservativeResize(vertices + 1, 3);
+  mesh.positions.row(vertices) << 0.3, 0.4, 2;
+  for (const StylizeEnergy energy : kEnergies) {
+    for (const Style& style :
+         {Style(cube_normals()), Style(Developable{}), Style(GivenNormals{Positions::Ones(vertices + 1, 3)})}) {
+      const StylizeResult result = stylize(mesh.positions, mesh.triangles, style, 1, by(energy, 20));
+      EXPECT_EQ(result.positions.rows(), mesh.positions.rows());
+      EXPECT_TRUE(result.positions.allFinite());
+    }
+  }
+}
+
+TEST(Stylize, SolvesAgainAsTheFirstTime) {
+  const Mesh mesh = askew(torus(1, 0.4, 24, 12));
+  Stylize method(mesh.positions, mesh.triangles, by(acap, 10));
+  ASSERT_TRUE(method.prepare());
+  Gesture handles;
+  handles.add(7, mesh.positions.row(7).transpose() * 1.2);
+  method.solve(Developable{}, 1000);
+  method.solve(cube_normals(), 3, handles);
+  const Positions again = method.solve(cube_normals(), 2).positions;
+  EXPECT_EQ(again, stylize(mesh.positions, mesh.triangles, cube_normals(), 2, by(acap, 10)).positions);
+}
+
+TEST(Stylize, TellsBothPartsOfTheEnergy) {
+  const Mesh mesh = askew(sphere(1, 2));
+  const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 3, by(arap, 7));
+  ASSERT_EQ(result.passes.size(), 7u);
+  ASSERT_EQ(result.report.energies.size(), 7u);
+  for (size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(result.report.energies[i], result.passes[i].shape + 3 * result.passes[i].normals, 1e-12);
+  }
+}
+
+TEST(Stylize, StopsWhereItsCallerCancels) {
+  const Mesh mesh = askew(sphere(1, 2));
+  for (const int last : {0, 1, 3, 6}) {
+    int asked = 0;
+    const auto cancel = [&](const Progress&) { return asked++ < last; };
+    const StylizeResult result = stylize(mesh.positions, mesh.triangles, cube_normals(), 1, {}, {}, cancel);
+    EXPECT_EQ(result.report.stop, Termination::cancelled);
+    EXPECT_EQ(result.positions.rows(), mesh.positions.rows());
+    if (result.report.passes == 0) {
+      EXPECT_EQ(result.positions, mesh.positions);
+    }
+  }
+}
+
+TEST(Stylize, IsTheSameBytesOnOneThreadAndTwo) {
+  const Mesh mesh = askew(torus(1, 0.4, 200, 100));
+  const int threads = omp_get_max_threads();
+  for (const StylizeEnergy energy : kEnergies) {
+    omp_set_num_threads(1);
+    const Positions one = stylize(mesh.positions, mesh.triangles, cube_normals(), 1, by(energy, 3)).positions;
+    omp_set_num_threads(2);
+    EXPECT_EQ(one, stylize(mesh.positions, mesh.triangles, cube_normals(), 1, by(energy, 3)).positions);
+  }
+  omp_set_num_threads(threads);
+}
+
+void expect_as_on_cpu(Precision precision, double tolerance) {
+  const std::shared_ptr<Backend> device = opencl_or_skip(precision);
+  if (!device) return;
+  for (const double size : {1e-2, 1.0, 1e2}) {
+    const Mesh mesh = transformed(askew(torus(1, 0.4, 24, 12)), size, {0, 0, 0});
+    for (const StylizeEnergy energy : kEnergies) {
+      StylizeOptions options = by(energy, 20);
+      const Positions host = stylize(mesh.positions, mesh.triangles, cube_normals(false), 1, options).positions;
+      options.backend = device;
+      const Positions there = stylize(mesh.positions, mesh.triangles, cube_normals(false), 1, options).positions;
+      EXPECT_LT(far_apart(host, there), tolerance) << to_string(energy) << " at " << size;
+    }
+  }
+}
+
+TEST(Stylize, IsTheSameOnADeviceInSingle) { expect_as_on_cpu(Precision::single, 1e-4); }
+TEST(Stylize, IsTheSameOnADeviceInDouble) { expect_as_on_cpu(Precision::twice, 1e-9); }
+
+template <typename Call>
+void expect_refused(const Call& call, const std::string& words) {
+  try {
+    call();
+    ADD_FAILURE() << "not refused: " << words;
+  } catch (const InvalidInput& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr(words));
+  }
+}
+
+TEST(Stylize, RefusesWhatItCannotTake) {
+  const Mesh mesh = sphere(1, 1);
+  const double nan = std::nan("");
+  const auto solve = [&](const Style& style, double lambda) {
+    return [&mesh, style, lambda] { stylize(mesh.positions, mesh.triangles, style, lambda); };
+  };
+  const auto with = [&](const StylizeOptions& options) {
+    return [&mesh, options] { Stylize(mesh.positions, mesh.triangles, options); };
+  };
+  expect_refused(solve(cube_normals(), -1), "lambda");
+  expect_refused(solve(cube_normals(), nan), "lambda");
+  expect_refused(solve(ClosestNormals{}, 1), "style.normals: there is none");
+  expect_refused(solve(ClosestNormals{Positions::Zero(2, 3)}, 1), "row 0 has no direction");
+  expect_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
+  expect_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
+  expect_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
+  expect_refused(solve(Developable{0.6}, 1), "tau");
+  expect_refused(solve(Developable{0.1, -1}, 1), "threshold");
+  expect_refused(solve(SphereMap{}, 1), "directions");
+  expect_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");
+  expect_refused(with(by(arap, 0)), "pass_limit");
+  StylizeOptions options;
+  options.movement = -1;
+  expect_refused(with(options), "movement");
+  Gesture handles;
+  handles.add(42, {0, 0, 0});
+  EXPECT_THROW(stylize(mesh.positions, mesh.triangles, cube_normals(), 1, {}, handles), InvalidInput);
+}
+
+TEST(StyleShapes, AreClosedAndHaveTheirFaces) {
+  const std::vector<std::pair<Mesh, int>> all = {{style_shape(StyleShape::tetrahedron), 4},
+                                                 {style_shape(StyleShape::cube), 6},
+                                                 {style_shape(StyleShape::octahedron), 8},
+                                                 {style_shape(StyleShape::dodecahedron), 12},
+                                                 {style_shape(StyleShape::icosahedron), 20},
+                                                 {prism(3), 5},
+                                                 {prism(8), 10},
+                                                 {bipyramid(8), 16}};
+  for (const auto& [mesh, faces] : all) {
+    EXPECT_EQ(closest_normals(mesh).normals.rows(), faces);
+    const Edges edges = edges_of(mesh.triangles);
+    for (int e = 0; e < edges.triangles.size(); ++e) ASSERT_EQ(edges.triangles[e].size(), 2) << faces;
+    EXPECT_GT(volume(mesh), 0) << faces;
+    EXPECT_LE(mesh.positions.rowwise().norm().maxCoeff(), 1.2) << faces;
+  }
+  EXPECT_THROW(prism(2), InvalidInput);
+  EXPECT_THROW(bipyramid(2), InvalidInput);
+  EXPECT_THROW(rounded_cube(0), InvalidInput);
+  EXPECT_THROW(rounded_cube(0.3, 1), InvalidInput);
+}
+
+TEST(SphereMap, OfASphereIsTheSphere) {
+  const SphereMap map = sphere_map(transformed(sphere(1, 3), 7, {3, 2, 1}));
+  EXPECT_LT((map.directions - map.normals).rowwise().norm().maxCoeff(), 0.02);
+  const Mesh shape = torus(1, 0.4, 24, 12);
+  const Positions still = stylize(shape.positions, shape.triangles, map, 1).positions;
+  EXPECT_LT(far_apart(shape.positions, still), 0.01);
+}
+
+TEST(SphereMap, OfARoundedCubeMakesCubes) {
+  const SphereMap between = sphere_map(rounded_cube(0.2, 12)), nearest = sphere_map(rounded_cube(0.2, 12), true);
+  const Mesh shape = askew(sphere(1, 3));
+  const Positions normals = cube_normals().normals;
+  for (const SphereMap& map : {between, nearest}) {
+    const Positions cubic = stylize(shape.positions, shape.triangles, map, 10).positions;
+    EXPECT_LT(mean_angle(shape, cubic, normals), 0.5 * mean_angle(shape, shape.positions, normals));
+  }
+}
+
+TEST(SphereMap, RefusesWhatIsNoSphere) {
+  const auto refused = [](const Mesh& mesh, const char* words) {
+    try {
+      sphere_map(mesh);
+      ADD_FAILURE() << "not refused: " << words;
+    } catch (const Unsolvable& no_sphere) {
+      EXPECT_THAT(no_sphere.what(), HasSubstr(words));
+    }
+  };
+  refused(sheet(4), "closed");
+  refused(torus(1, 0.4, 12, 8), "tunnels");
+  refused(joined(sphere(1, 1), transformed(sphere(1, 1), 1, {4, 0, 0})), "2 components");
+  Mesh inside_out = sphere(1, 1);
+  inside_out.triangles = Triangles(inside_out.triangles.rowwise().reverse());
+  refused(inside_out, "folded");
+}
+
+}  // namespace
+}  // namespace swage::test
