@@ -63,12 +63,12 @@ void passes(benchmark::State& state, DeformMethod method) {
 void first_by_cgal(benchmark::State& state) {
   const Mesh mesh = torus_of(static_cast<int>(state.range(0)));
   const Gesture gesture = handles_of(mesh);
-  for (auto _ : state) CgalArap(mesh, gesture).solve(1);
+  for (auto _ : state) test::CgalArap(mesh, gesture).solve(1);
 }
 
 void passes_by_cgal(benchmark::State& state) {
   const Mesh mesh = torus_of(static_cast<int>(state.range(0)));
-  CgalArap plan(mesh, handles_of(mesh));
+  test::CgalArap plan(mesh, handles_of(mesh));
   for (auto _ : state) plan.solve(kPasses);
   state.counters["passes/s"] = benchmark::Counter(kPasses, benchmark::Counter::kIsIterationInvariantRate);
 }

@@ -68,17 +68,11 @@ Json measures(const Comparison& changes) {
           {"flipped", changes.flipped}};
 }
 
-std::vector<HandleMark> marks(const Gesture& gesture, const Positions& rest, bool reached) {
-  std::vector<HandleMark> result;
-  for (const auto& [v, target] : gesture.targets) result.push_back({rest.row(v).transpose(), target, reached});
-  return result;
-}
-
 /// Solves and measures; the row of pictures is the rest with its handles, then each method's edit.
 Json compare_methods(const Model& model, const Gesture& gesture, std::vector<SheetRow>& sheet) {
   const Mesh& mesh = model.mesh;
   SheetRow row;
-  row.panels.push_back({mesh, "", marks(gesture, mesh.positions, false), {}, model.name + " " + gesture.label});
+  row.panels.push_back({mesh, "", handle_marks(gesture, mesh.positions, false), {}, model.name + " " + gesture.label});
   CompareOptions options;
   options.gesture = gesture;
   options.crossing_limit = 0;
@@ -89,7 +83,7 @@ Json compare_methods(const Model& model, const Gesture& gesture, std::vector<She
     const double normals = result["methods"][method.name]["normals"];
     char caption[32];
     std::snprintf(caption, sizeof caption, "normals %.1f°", normals);
-    row.panels.push_back({{edit, mesh.triangles}, "", marks(gesture, mesh.positions, true), {}, caption});
+    row.panels.push_back({{edit, mesh.triangles}, "", handle_marks(gesture, mesh.positions, true), {}, caption});
     std::printf("%s %s %s: %.2f degrees\n", model.name.c_str(), gesture.label.c_str(), method.name.c_str(), normals);
     std::fflush(stdout);
   }

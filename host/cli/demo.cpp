@@ -32,8 +32,8 @@ std::string picture_beside(const std::filesystem::path& folder, const Mesh& rest
                            const Positions& result) {
   const auto path = folder / "before_after.png";
   if (!can_render()) return line(path, "left out: this build makes no pictures (SWAGE_RENDER, SWAGE_EMBREE)");
-  write_png(path, render({{rest, "before", marks_of(gesture, rest.positions, false), {}, {}},
-                          {{result, rest.triangles}, "after", marks_of(gesture, rest.positions, true), {}, {}}}));
+  write_png(path, render({{rest, "before", handle_marks(gesture, rest.positions, false), {}, {}},
+                          {{result, rest.triangles}, "after", handle_marks(gesture, rest.positions, true), {}, {}}}));
   return line(path, "the chair before and after, side by side");
 }
 

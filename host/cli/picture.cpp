@@ -161,7 +161,7 @@ Image picture_of(const PictureOptions& options, const std::string& rest_path, co
   RenderOptions render_options = render_options_of(options);
   if (heat) render_options.heat_map = scale_of(*heat, edits);
   const auto marks = [&](bool reached) {
-    return gesture ? marks_of(*gesture, rest.positions, reached) : std::vector<HandleMark>();
+    return gesture ? handle_marks(*gesture, rest.positions, reached) : std::vector<HandleMark>();
   };
   std::vector<Panel> panels{{rest, std::filesystem::path(rest_path).stem().string(), marks(false), {}, "before"}};
   const std::vector<std::string> titles = titles_of(edits);
@@ -180,12 +180,6 @@ Image picture_of(const PictureOptions& options, const std::string& rest_path, co
   });
   stop_if_interrupted();
   return image;
-}
-
-std::vector<HandleMark> marks_of(const Gesture& gesture, const PositionsRef& rest, bool reached) {
-  std::vector<HandleMark> marks;
-  for (const auto& [vertex, target] : gesture.targets) marks.push_back({rest.row(vertex), target, reached});
-  return marks;
 }
 
 }  // namespace swage::cli

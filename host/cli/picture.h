@@ -38,7 +38,4 @@ Image picture_of(const PictureOptions& options, const std::string& rest_path, co
                  const std::vector<PictureEdit>& edits, const std::optional<Gesture>& gesture,
                  const CommonOptions& common);
 
-/// Handles at the mesh that they are of or, where `reached`, at its edit.
-std::vector<HandleMark> marks_of(const Gesture& gesture, const PositionsRef& rest, bool reached);
-
 }  // namespace swage::cli

@@ -18,6 +18,7 @@
 #include "laplacian_system.h"
 #include "measures.h"
 #include "pool.h"
+#include "preparation.h"
 #include "stopwatch.h"
 #include "swage/deform.h"
 
@@ -50,9 +51,6 @@ struct DeformPlan {
   Pool<DeformSteps> workspaces = {};
 };
 
-/// Of a whole call's progress, what preparation is.
-constexpr double kPrepared = 0.2;
-
 // check.cpp
 void check_options(const DeformOptions& options);
 void check_start(const DeformResult& start, const Mesh& mesh);
@@ -61,10 +59,6 @@ void check_start(const DeformResult& start, const Mesh& mesh);
 std::unique_ptr<DeformPlan> plan_of(Mesh mesh, const DeformOptions& options);
 /// Once. False where `progress` cancelled: another call begins anew.
 bool prepare(DeformPlan& plan, const ProgressFn& progress);
-
-// global.cpp
-/// For these handles; the plan's last where that is for the same.
-std::shared_ptr<const HeldLaplacian> held_laplacian(DeformPlan& plan, const HeldPoints& points);
 
 // energy.cpp
 /// Of holds that are not met exactly.

@@ -7,24 +7,42 @@
 #include "join.h"
 #include "plan.h"
 #include "spokes_and_rims.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
 
-/// The tetrahedra within the mesh, and their vertices behind `vertices`, of which the mesh's are the first.
-Tetrahedra filling(const DeformPlan& plan, const Mesh& unit_mesh, Positions& vertices, const Poll& poll) {
+/// Around and within the mesh; where its triangles cannot be faces, of its vertices alone.
+Scaffold scaffold_around(DeformPlan& plan, const Mesh& unit_mesh, const Poll& poll) {
+  const ProgressFn progress = [&](const Progress&) {
+    ask(poll);
+    return true;
+  };
   ScaffoldOptions options;
   options.leave_out_crossing = true;
   options.time_limit = plan.options.filling_time_limit;
-  const Scaffold all = scaffold(unit_mesh.positions, unit_mesh.triangles, options, [&](const Progress&) {
-    ask(poll);
-    return true;
-  });
+  try {
+    return scaffold(unit_mesh.positions, unit_mesh.triangles, options, progress);
+  } catch (const Unsolvable& why) {
+    plan.told_filling = std::string(", not along its triangles: ") + why.what();
+  }
+  options.faces = false;
+  try {
+    return scaffold(unit_mesh.positions, unit_mesh.triangles, options, progress);
+  } catch (const Unsolvable& why) {
+    throw Unsolvable(std::string("Deform: no filling can be had: ") + why.what() + "; take arap, which needs none");
+  }
+}
+
+/// The tetrahedra within the mesh, and their vertices behind `vertices`, of which the mesh's are the first.
+Tetrahedra filling(DeformPlan& plan, const Mesh& unit_mesh, Positions& vertices, const Poll& poll) {
+  const Scaffold all = scaffold_around(plan, unit_mesh, poll);
   const std::vector<char> inside = are_inside(unit_mesh, all.positions, all.tetrahedra, poll);
   std::vector<int> within;
   for (int t = 0; t < all.tetrahedra.rows(); ++t) {
     if (inside[static_cast<size_t>(t)] != 0) within.push_back(t);
   }
+  plan.told_filling = std::to_string(within.size()) + " tetrahedra within" + plan.told_filling;
   const auto own = static_cast<int>(unit_mesh.positions.rows()), joined = static_cast<int>(vertices.rows());
   const Eigen::Index further = all.positions.rows() - own;
   vertices.conservativeResize(joined + further, 3);
@@ -44,19 +62,12 @@ Elements elements_of(DeformPlan& plan, const Mesh& unit_mesh, const std::vector<
       break;
   }
   const Tetrahedra within = filling(plan, unit_mesh, vertices, poll);
-  plan.told_filling = std::to_string(within.rows()) + " tetrahedra within";
   return tetrahedron_elements(vertices, within, unit_mesh.triangles, is_flat, plan.mean_edge_length);
 }
 
 void make(DeformPlan& plan, const ProgressFn& progress) {
-  Progress now{"", 0, plan.options.pass_limit, 0, 0};
-  const auto asked = [&] { return !progress || progress(now); };
-  const auto begin = [&](const char* stage, double part) {
-    now.stage = stage;
-    now.fraction = part * kPrepared;
-    if (!asked()) throw Cancelled();
-  };
-  const Poll poll = sparing(asked);
+  Preparation preparation(progress, plan.options.pass_limit);
+  const Poll& poll = preparation.poll();
   const Stopwatch watch(plan.prepare_seconds);
   const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
   const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
@@ -64,16 +75,15 @@ void make(DeformPlan& plan, const ProgressFn& progress) {
   plan.components = 1 + *std::max_element(component.begin(), component.end());
   plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
   plan.mean_edge_length = mean_edge_length(unit_mesh.positions, unit_mesh.triangles);
-  begin("components", 0);
+  preparation.begin("components", 0);
   const Joined joined = join_components(unit_mesh, plan.edges, plan.options.scaffold, poll);
   plan.told_components = joined.told;
   Positions vertices = joined.scaffold ? joined.scaffold->positions : unit_mesh.positions;
-  begin("elements", 0.2);
+  preparation.begin("elements", 0.2);
   plan.elements = elements_of(plan, unit_mesh, is_flat, vertices, poll);
   add_ties(vertices, joined.ties, plan.mean_edge_length, plan.elements);
-  begin("system", 0.7);
+  preparation.begin("system", 0.7);
   plan.system = LaplacianSystem(plan.elements.pairs);
-  plan.prepared = true;
 }
 
 }  // namespace
@@ -91,14 +101,7 @@ std::unique_ptr<DeformPlan> plan_of(Mesh mesh, const DeformOptions& options) {
 }
 
 bool prepare(DeformPlan& plan, const ProgressFn& progress) {
-  const std::lock_guard lock(plan.preparing);
-  if (plan.prepared) return true;
-  try {
-    make(plan, progress);
-    return true;
-  } catch (const Cancelled&) {
-    return false;
-  }
+  return prepare_once(plan, [&](DeformPlan& unprepared) { make(unprepared, progress); });
 }
 
 }  // namespace swage

@@ -1,5 +1,6 @@
 #include "alternate.h"
 #include "anderson.h"
+#include "matrices.h"
 #include "plan.h"
 #include "warnings.h"
 
@@ -7,12 +8,6 @@ namespace swage {
 namespace {
 
 const Mesh& given_mesh(const DeformPlan& plan) { return plan.given ? plan.given->mesh() : plan.mesh; }
-
-Transforms identities(Eigen::Index count) {
-  Transforms matrices = Transforms::Zero(count, 9);
-  matrices(Eigen::all, {0, 4, 8}).setOnes();
-  return matrices;
-}
 
 std::unique_ptr<DeformSteps> workspace(const DeformPlan& plan) {
   auto work = std::make_unique<DeformSteps>();
@@ -51,22 +46,9 @@ Positions start_of(const DeformPlan& plan, const DeformResult* from) {
   return start;
 }
 
-/// Of each triangle the mean of its corners'.
-Transforms of_triangles(const DeformPlan& plan, const Transforms& matrices) {
-  Transforms result = Transforms::Zero(plan.mesh.triangles.rows(), 9);
-  for (Eigen::Index t = 0; t < result.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      result.row(t) += matrices.row(plan.elements.of_vertex[static_cast<size_t>(plan.mesh.triangles(t, k))]) / 3;
-    }
-  }
-  return result;
-}
-
 /// Without the backend's.
 std::map<std::string, std::size_t> bytes_by_part(const DeformPlan& plan, const HeldLaplacian& held) {
-  const PairsRest& pairs = plan.elements.pairs;
-  return {{"elements", pairs.offsets.size() * sizeof(int) +
-                           static_cast<std::size_t>(pairs.weights.size()) * (sizeof(double) + 2 * sizeof(int))},
+  return {{"elements", bytes(plan.elements.pairs)},
           {"vertex_system", plan.system.bytes() + held.coupling_bytes()},
           {"factor", held.factor_bytes()}};
 }
@@ -79,14 +61,6 @@ void tell(const DeformPlan& plan, const Gesture& gesture, DeformResult& result) 
   if (report.stop == Termination::cancelled) return;
   warn_of_shape({plan.counts, plan.edges, plan.flat_triangles, plan.components}, report);
   warn_of_misses(given_mesh(plan), gesture, result.positions, "handles are held softly; raise their weight", report);
-}
-
-ProgressFn after_preparation(const ProgressFn& progress) {
-  if (!progress) return progress;
-  return [&progress](Progress p) {
-    p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
-    return progress(p);
-  };
 }
 
 /// One solve's state.
@@ -143,11 +117,6 @@ Report passes(const DeformPlan& plan, Iterate& iterate, const StopRule& stop, co
   return report;
 }
 
-std::vector<Hold> in_box(std::vector<Hold> holds, const UnitBox& box) {
-  for (Hold& hold : holds) hold.target = (hold.target - box.corner) / box.extent;
-  return holds;
-}
-
 DeformResult cancelled(const DeformPlan& plan, const DeformResult* from) {
   DeformResult result{from ? from->positions : given_mesh(plan).positions, {}};
   result.report.stop = Termination::cancelled;
@@ -157,7 +126,8 @@ DeformResult cancelled(const DeformPlan& plan, const DeformResult* from) {
 DeformResult solve_prepared(DeformPlan& plan, const std::vector<Hold>& holds, const DeformResult* from,
                             const ProgressFn& progress) {
   const HeldPoints points = held_points(plan.system, holds, plan.options.handle_weight);
-  const std::shared_ptr<const HeldLaplacian> held = held_laplacian(plan, points);
+  const std::shared_ptr<const HeldLaplacian> held =
+      held_laplacian(plan.last_held, plan.system, points, plan.given, "Deform");
   const auto work = plan.workspaces.lend([&] { return workspace(plan); });
   Positions positions = start_of(plan, from);
   Iterate iterate{
@@ -168,7 +138,9 @@ DeformResult solve_prepared(DeformPlan& plan, const std::vector<Hold>& holds, co
   if (result.report.passes == 0) return cancelled(plan, from);
   result.report.bytes = bytes_by_part(plan, *held);
   const Positions solved = plan.box.back(positions.topRows(plan.mesh.positions.rows()));
-  result.positions = plan.given ? plan.given->back(solved, of_triangles(plan, iterate.matrices)) : solved;
+  result.positions =
+      plan.given ? plan.given->back(solved, matrices_of_triangles(plan.elements, plan.mesh.triangles, iterate.matrices))
+                 : solved;
   return result;
 }
 
@@ -183,7 +155,7 @@ DeformResult solve(DeformPlan& plan, const Gesture& gesture, const DeformResult*
   DeformResult result;
   {
     const Stopwatch watch(seconds);
-    result = solve_prepared(plan, in_box(std::move(holds), plan.box), from, progress);
+    result = solve_prepared(plan, in_box(holds, plan.box), from, progress);
   }
   if (plan.given) plan.given->place_loose(gesture, result.positions);
   result.report.seconds["solve"] = seconds;

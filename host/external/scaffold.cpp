@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +78,12 @@ std::vector<int> crossing_triangles(const Complex& complex, const Poll& poll) {
   std::sort(crossing.begin(), crossing.end());
   crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
   return crossing;
+}
+
+std::vector<int> all_of(const Complex& complex) {
+  std::vector<int> all(static_cast<size_t>(complex.triangles.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 /// Takes them out of the complex, and tells which of the mesh's they are.
@@ -204,10 +211,14 @@ Scaffold scaffold(const PositionsRef& positions, const TrianglesRef& triangles, 
   const Poll poll = sparing([&] { return !progress || progress({.stage = "scaffold"}); });
   try {
     Task task = make_task(positions, triangles, options.enlargement);
-    const std::vector<int> crossing = crossing_triangles(task.complex, poll);
-    if (!crossing.empty() && !options.leave_out_crossing) refuse_crossing(task, crossing);
     std::vector<int> left_out;
-    leave_out(task, crossing, left_out);
+    if (options.faces) {
+      const std::vector<int> crossing = crossing_triangles(task.complex, poll);
+      if (!crossing.empty() && !options.leave_out_crossing) refuse_crossing(task, crossing);
+      leave_out(task, crossing, left_out);
+    } else {
+      leave_out(task, all_of(task.complex), left_out);
+    }
     Filling filling = fill(task, options, poll);
     if (!filling.crossing.empty() && options.leave_out_crossing) {  // By rounding.
       leave_out(task, filling.crossing, left_out);

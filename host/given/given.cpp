@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "matrices.h"
 #include "measures.h"
 #include "nearest.h"
 #include "swage/error.h"
@@ -128,8 +129,7 @@ Tetrahedra Given::back(const Tetrahedra& tetrahedra) const {
 }
 
 Transforms Given::back(const Transforms& transforms) const {
-  Transforms given = Transforms::Zero(mesh_.triangles.rows(), 9);
-  given(Eigen::all, {0, 4, 8}).setOnes();
+  Transforms given = identities(mesh_.triangles.rows());
   for (size_t t = 0; t < triangle_of_.size(); ++t) {
     if (triangle_of_[t] >= 0) given.row(static_cast<Eigen::Index>(t)) = transforms.row(triangle_of_[t]);
   }

@@ -1,6 +1,10 @@
 #include "held_points.h"
 
 #include <algorithm>
+#include <string>
+
+#include "block_system.h"
+#include "swage/error.h"
 
 namespace swage {
 namespace {
@@ -40,6 +44,19 @@ HeldPoints held_points(const LaplacianSystem& system, const std::vector<Hold>& h
     points.soft.push_back({hold.vertices, hold.factors, hold.share * per_share});
   }
   return points;
+}
+
+std::shared_ptr<const HeldLaplacian> held_laplacian(LastHeld& last, const LaplacianSystem& system,
+                                                    const HeldPoints& points, const std::optional<Given>& given,
+                                                    const char* caller) {
+  try {
+    return last.get(system, points);
+  } catch (const Indefinite& singular) {
+    int vertex = singular.element();
+    if (given && vertex < static_cast<int>(given->vertices().size())) vertex = given->vertex(vertex);
+    throw Unsolvable(std::string(caller) + ": the system is singular near vertex " + std::to_string(vertex) +
+                     ": its triangles are too badly shaped, or nothing holds them; remesh, or add a handle there");
+  }
 }
 
 }  // namespace swage

@@ -1,9 +1,11 @@
 // Holds as the global step takes them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "given.h"
 #include "holds.h"
 #include "laplacian_system.h"
 
@@ -13,5 +15,11 @@ namespace swage {
 /// middle, and points within triangles very nearly.
 HeldPoints held_points(const LaplacianSystem& system, const std::vector<Hold>& holds,
                        std::optional<double> weight = {});
+
+/// The last one made where that is for the same points. Throws Unsolvable, naming the `caller` and a vertex as given,
+/// where what is left to find is singular.
+std::shared_ptr<const HeldLaplacian> held_laplacian(LastHeld& last, const LaplacianSystem& system,
+                                                    const HeldPoints& points, const std::optional<Given>& given,
+                                                    const char* caller);
 
 }  // namespace swage

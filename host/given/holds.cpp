@@ -20,4 +20,9 @@ std::vector<Hold> holds_of(const Gesture& gesture) {
   return holds;
 }
 
+std::vector<Hold> in_box(std::vector<Hold> holds, const UnitBox& box) {
+  for (Hold& hold : holds) hold.target = (hold.target - box.corner) / box.extent;
+  return holds;
+}
+
 }  // namespace swage

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "measures.h"
 #include "swage/handles.h"
 
 namespace swage {
@@ -26,5 +27,8 @@ struct Hold {
 
 /// A gesture's, each a vertex by itself.
 std::vector<Hold> holds_of(const Gesture& gesture);
+
+/// With targets in the unit box.
+std::vector<Hold> in_box(std::vector<Hold> holds, const UnitBox& box);
 
 }  // namespace swage

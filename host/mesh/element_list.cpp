@@ -41,6 +41,21 @@ Elements ElementList::take(const Positions& vertices) {
   return elements;
 }
 
+Transforms matrices_of_triangles(const Elements& elements, const Triangles& triangles, const Transforms& matrices) {
+  Transforms result = Transforms::Zero(triangles.rows(), 9);
+  for (Eigen::Index t = 0; t < result.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      result.row(t) += matrices.row(elements.of_vertex[static_cast<size_t>(triangles(t, k))]) / 3;
+    }
+  }
+  return result;
+}
+
+std::size_t bytes(const PairsRest& pairs) {
+  const auto edges = static_cast<std::size_t>(pairs.weights.size());
+  return pairs.offsets.size() * sizeof(int) + edges * (sizeof(double) + 2 * sizeof(int));
+}
+
 double edge_energy(const PairsRest& pairs, const Positions& positions, const Transforms& matrices) {
   Eigen::VectorXd of_element = Eigen::VectorXd::Zero(matrices.rows());
 #pragma omp parallel for schedule(static)

@@ -1,6 +1,7 @@
 // What keeps its shape: elements and their edges.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "swage/mesh.h"
@@ -38,6 +39,12 @@ class ElementList {
   std::vector<WeightedEdge> open_, edges_;
   std::vector<int> offsets_{0}, of_vertex_;
 };
+
+/// #T × 9: of each triangle the mean of the matrices of its corners' elements.
+Transforms matrices_of_triangles(const Elements& elements, const Triangles& triangles, const Transforms& matrices);
+
+/// Memory that they take.
+std::size_t bytes(const PairsRest& pairs);
 
 /// sum over elements n and their edges of w |e - M_n e0|², e0 the edge at rest.
 double edge_energy(const PairsRest& pairs, const Positions& positions, const Transforms& matrices);

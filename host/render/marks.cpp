@@ -69,4 +69,10 @@ void draw_mark_legend(Image& image, const Eigen::Vector2d& at, const MarkKinds& 
   }
 }
 
+std::vector<HandleMark> handle_marks(const Gesture& gesture, const PositionsRef& rest, bool reached) {
+  std::vector<HandleMark> marks;
+  for (const auto& [vertex, target] : gesture.targets) marks.push_back({rest.row(vertex), target, reached});
+  return marks;
+}
+
 }  // namespace swage

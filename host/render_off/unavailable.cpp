@@ -13,6 +13,8 @@ namespace {
 
 bool can_render() { return false; }
 
+std::vector<HandleMark> handle_marks(const Gesture&, const PositionsRef&, bool) { refuse("handle_marks"); }
+
 Image render(const std::vector<Panel>&, const RenderOptions&, const ProgressFn&) { refuse("render"); }
 
 Image contact_sheet(const std::vector<SheetRow>&, const std::vector<std::string>&, const RenderOptions&,

@@ -179,12 +179,6 @@ Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matri
   return transforms + Eigen::Map<const Transforms>(change.data(), transforms.rows(), 9);
 }
 
-Transforms identities(Eigen::Index triangle_count) {
-  Eigen::Matrix<double, 1, 9> identity;
-  identity << 1, 0, 0, 0, 1, 0, 0, 0, 1;
-  return identity.replicate(triangle_count, 1);
-}
-
 Transforms solve_transforms(const BlockSystem& system, const Transforms& right_hand_sides) {
   const Eigen::Map<const Eigen::VectorXd> flat(right_hand_sides.data(), right_hand_sides.size());
   const Eigen::VectorXd solution = system.solve(flat);

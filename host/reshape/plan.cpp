@@ -69,23 +69,14 @@ void look_at(ReshapePlan& plan) {
 }
 
 void make(ReshapePlan& plan, const ProgressFn& progress) {
-  Progress now{"", 0, plan.options.pass_limit, 0, 0};
-  const auto asked = [&] { return !progress || progress(now); };
-  const auto begin = [&](const char* stage, double part) {
-    now.stage = stage;
-    now.fraction = part * kPrepared;
-    if (!asked()) throw Cancelled();
-  };
-  const Poll poll = sparing(asked);
+  Preparation preparation(progress, plan.options.pass_limit);
+  const Poll& poll = preparation.poll();
   const Stopwatch watch(plan.prepare_seconds);
   look_at(plan);
   plan.stand_in = stand_in_for(plan, progress, plan.paths.mesh);
-  if (plan.stand_in) {
-    plan.prepared = true;
-    return;
-  }
+  if (plan.stand_in) return;
   const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
-  begin("curvature", 0);
+  preparation.begin("curvature", 0);
   const Curvatures curvatures = plan.options.unit_box_curvatures
                                     ? *plan.options.unit_box_curvatures
                                     : curvature(unit_mesh.positions, unit_mesh.triangles, {}, *plan.options.backend);
@@ -98,16 +89,16 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
   plan.paths.mesh = mesh;
   plan.bonds.straightness_weight = plan.weights.straightness;
   plan.bonds.firm_length = plan.options.solver == ReshapeSolver::steady ? rest.mean_edge_length : 0;
-  begin("components", 0.15);
+  preparation.begin("components", 0.15);
   join(plan, unit_mesh, rest, poll);
   plan.rest = std::make_shared<const TransformStep::Rest>(std::move(rest));
-  begin("order", 0.2);
+  preparation.begin("order", 0.2);
   plan.vertices = vertex_system(*plan.rest, plan.bonds, vertex_factor_kind(plan), poll);
-  begin("factor", 0.4);
+  preparation.begin("factor", 0.4);
   factor_or_coarsen(plan, poll);
-  begin("coarse", 0.8);
+  preparation.begin("coarse", 0.8);
   plan.coarse = coarse_plan(plan, curvatures, poll, plan.paths.why_no_coarse_start);
-  begin("workspace", 0.95);
+  preparation.begin("workspace", 0.95);
   const auto first =
       plan.workspaces.lend([&] { return workspace(plan, poll); });         // For the first solve, as fast as any.
   if (first->transforms) std::swap(*first->transforms, *plan.transforms);  // It has analysed its pattern.
@@ -118,7 +109,6 @@ void make(ReshapePlan& plan, const ProgressFn& progress) {
     plan.vertices = vertex_system(*plan.rest, plan.bonds, factor_kind(plan.options), poll);
     first->vertices = plan.vertices->unsolved();
   }
-  plan.prepared = true;
 }
 
 }  // namespace
@@ -134,14 +124,7 @@ std::unique_ptr<Workspace> workspace(const ReshapePlan& plan, const Poll& poll) 
 }
 
 bool prepare(ReshapePlan& plan, const ProgressFn& progress) {
-  const std::lock_guard lock(plan.preparing);
-  if (plan.prepared) return true;
-  try {
-    make(plan, progress);
-    return true;
-  } catch (const Cancelled&) {
-    return false;
-  }
+  return prepare_once(plan, [&](ReshapePlan& unprepared) { make(unprepared, progress); });
 }
 
 }  // namespace swage

@@ -14,9 +14,11 @@
 #include "block_system.h"
 #include "given.h"
 #include "holds.h"
+#include "matrices.h"
 #include "measures.h"
 #include "multilevel.h"
 #include "pool.h"
+#include "preparation.h"
 #include "shape_quality.h"
 #include "stopwatch.h"
 #include "surface.h"
@@ -136,9 +138,6 @@ struct Iterate {
   std::map<std::string, double> seconds = {};
 };
 
-/// Of a whole call's progress, what preparation is.
-constexpr double kPrepared = 0.2;
-
 // plan_of.cpp
 std::unique_ptr<ReshapePlan> plan_of(Mesh mesh, const ReshapeOptions& options);
 
@@ -215,9 +214,6 @@ Transforms improved_transforms(const BlockSystem& system, const Transforms& righ
 /// The same without a factor.
 Transforms improved_transforms(const Multilevel& multilevel, CouplingStep& matrix, const Transforms& right_hand_sides,
                                const Transforms& transforms, const Poll& poll);
-
-/// #T × 9 identity matrices.
-Transforms identities(Eigen::Index triangle_count);
 
 // energy.cpp
 /// The terms by name, weighted; their sum decides when to stop.

@@ -10,11 +10,6 @@ namespace {
 
 constexpr int kPlainPasses = 2;  // Far from the fixed point, and unlike those after: nothing to learn from.
 
-Holds in_box(std::vector<Hold> holds, const UnitBox& box, double weight) {
-  for (Hold& hold : holds) hold.target = (hold.target - box.corner) / box.extent;
-  return {std::move(holds), weight};
-}
-
 /// Where passes start, in the unit box.
 struct Start {
   Positions positions;
@@ -38,7 +33,7 @@ Positions mesh_positions(const ReshapePlan& plan, const Positions& solved) {
 Iterate begin(const ReshapePlan& plan, Workspace& work, const std::vector<Hold>& holds, const Start& start) {
   Iterate iterate{work};
   iterate.acceleration = Anderson(plan.options.acceleration_window);
-  iterate.handles = in_box(holds, plan.box, plan.weights.handle);
+  iterate.handles = {in_box(holds, plan.box), plan.weights.handle};
   iterate.transforms = start.transforms;
   work.step->reset();
   work.vertices.forget();
@@ -101,14 +96,6 @@ void fit(const ReshapePlan& plan, Iterate& iterate, const Poll& poll) {
   const BlockSystem& system = own ? *own : *plan.transforms;
   iterate.transforms = system.single() ? improved_transforms(system, iterate.right_hand_sides, iterate.transforms)
                                        : solve_transforms(system, iterate.right_hand_sides);
-}
-
-ProgressFn after_preparation(const ProgressFn& progress) {
-  if (!progress) return progress;
-  return [&progress](Progress p) {
-    p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
-    return progress(p);
-  };
 }
 
 Report passes(const ReshapePlan& plan, Iterate& iterate, const StopRule& stop, const ProgressFn& progress,

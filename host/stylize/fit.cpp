@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "matrices.h"
 #include "plan.h"
 
 namespace swage {
@@ -50,9 +51,7 @@ std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan) {
 }
 
 StylizeFit unmoved(Eigen::Index element_count) {
-  StylizeFit fitted{Transforms::Zero(element_count, 9), Eigen::VectorXd::Ones(element_count)};
-  fitted.matrices(Eigen::all, {0, 4, 8}).setOnes();
-  return fitted;
+  return {identities(element_count), Eigen::VectorXd::Ones(element_count)};
 }
 
 void fit(const StylizePlan& plan, StylizeSteps& steps, const Positions& positions, const Positions& targets,

@@ -18,6 +18,7 @@
 #include "laplacian_system.h"
 #include "measures.h"
 #include "pool.h"
+#include "preparation.h"
 #include "stopwatch.h"
 #include "swage/stylize.h"
 
@@ -59,9 +60,6 @@ struct StylizePlan {
   bool of_triangles() const { return options.energy == StylizeEnergy::farap; }
 };
 
-/// Of a whole call's progress, what preparation is.
-constexpr double kPrepared = 0.3;
-
 // check.cpp
 void check_options(const StylizeOptions& options);
 void check_style(const StylizePlan& plan, const Style& style, double lambda);
@@ -74,8 +72,6 @@ bool prepare(StylizePlan& plan, const ProgressFn& progress);
 // hold.cpp
 /// The handles, and of components without any their anchors. In the unit box.
 HeldPoints points_held(const StylizePlan& plan, const Gesture& handles);
-/// The plan's last where that is for the same points.
-std::shared_ptr<const HeldLaplacian> held_laplacian(StylizePlan& plan, const HeldPoints& points);
 
 // fit.cpp
 std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan);

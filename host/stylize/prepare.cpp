@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "cancel.h"
 #include "element_normals.h"
 #include "flat.h"
 #include "plan.h"
@@ -38,9 +37,7 @@ std::vector<int> anchors_of(const Mesh& mesh, const std::vector<int>& component)
 }
 
 void make(StylizePlan& plan, const ProgressFn& progress) {
-  const auto begin = [&](const char* stage, double part) {
-    if (progress && !progress({stage, 0, plan.options.pass_limit, part * kPrepared, 0})) throw Cancelled();
-  };
+  Preparation preparation(progress, plan.options.pass_limit);
   const Stopwatch watch(plan.prepare_seconds);
   const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
   const auto vertex_count = static_cast<int>(unit_mesh.positions.rows());
@@ -49,15 +46,14 @@ void make(StylizePlan& plan, const ProgressFn& progress) {
   plan.component = components(unit_mesh.triangles, vertex_count);
   plan.anchors = anchors_of(unit_mesh, plan.component);
   plan.triangles_around = triangles_of_vertices(unit_mesh.triangles, vertex_count);
-  begin("elements", 0);
+  preparation.begin("elements", 0);
   plan.elements = elements_of(plan, unit_mesh, is_flat);
   plan.elements.pairs.normals = element_normals(plan, unit_mesh.positions);
   plan.elements.pairs.normal_weights = areas_of_elements(plan, unit_mesh);
-  begin("system", 0.3);
+  preparation.begin("system", 0.3);
   plan.system = LaplacianSystem(plan.elements.pairs);
-  begin("factor", 0.5);
-  held_laplacian(plan, points_held(plan, {}));
-  plan.prepared = true;
+  preparation.begin("factor", 0.5);
+  held_laplacian(plan.last_held, plan.system, points_held(plan, {}), plan.given, "Stylize");
 }
 
 }  // namespace
@@ -75,14 +71,7 @@ std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options) {
 }
 
 bool prepare(StylizePlan& plan, const ProgressFn& progress) {
-  const std::lock_guard lock(plan.preparing);
-  if (plan.prepared) return true;
-  try {
-    make(plan, progress);
-    return true;
-  } catch (const Cancelled&) {
-    return false;
-  }
+  return prepare_once(plan, [&](StylizePlan& unprepared) { make(unprepared, progress); });
 }
 
 }  // namespace swage

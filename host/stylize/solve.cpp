@@ -11,14 +11,9 @@ namespace {
 
 const Mesh& given_mesh(const StylizePlan& plan) { return plan.given ? plan.given->mesh() : plan.mesh; }
 
-/// Of each triangle its own, or the mean of its corners'.
 Transforms of_triangles(const StylizePlan& plan, const Transforms& matrices) {
   if (plan.of_triangles()) return matrices;
-  Transforms result = Transforms::Zero(plan.mesh.triangles.rows(), 9);
-  for (Eigen::Index t = 0; t < result.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) result.row(t) += matrices.row(plan.mesh.triangles(t, k)) / 3;
-  }
-  return result;
+  return matrices_of_triangles(plan.elements, plan.mesh.triangles, matrices);
 }
 
 /// max|U - U_prev| / max|U - V|, and whether nothing moves but by rounding.
@@ -37,10 +32,8 @@ StopRule stop_rule(const StylizePlan& plan) {
 }
 
 void tell(const StylizePlan& plan, const HeldLaplacian& held, Report& report) {
-  const PairsRest& pairs = plan.elements.pairs;
   report.seconds["precompute"] = plan.prepare_seconds;
-  report.bytes = {{"elements", pairs.offsets.size() * sizeof(int) +
-                                   static_cast<std::size_t>(pairs.weights.size()) * (sizeof(double) + 2 * sizeof(int))},
+  report.bytes = {{"elements", bytes(plan.elements.pairs)},
                   {"vertex_system", plan.system.bytes() + held.coupling_bytes()},
                   {"factor", held.factor_bytes()}};
   if (report.stop == Termination::cancelled) return;
@@ -52,14 +45,6 @@ void tell(const StylizePlan& plan, const HeldLaplacian& held, Report& report) {
   }
 }
 
-ProgressFn after_preparation(const ProgressFn& progress) {
-  if (!progress) return progress;
-  return [&progress](Progress p) {
-    p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
-    return progress(p);
-  };
-}
-
 StylizeResult cancelled(const StylizePlan& plan) {
   StylizeResult result{given_mesh(plan).positions, {}, {}};
   result.report.stop = Termination::cancelled;
@@ -69,7 +54,8 @@ StylizeResult cancelled(const StylizePlan& plan) {
 StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambda, const Gesture& handles,
                              const ProgressFn& progress) {
   const HeldPoints points = points_held(plan, handles);
-  const std::shared_ptr<const HeldLaplacian> held = held_laplacian(plan, points);
+  const std::shared_ptr<const HeldLaplacian> held =
+      held_laplacian(plan.last_held, plan.system, points, plan.given, "Stylize");
   const auto steps = plan.workspaces.lend([&] { return steps_of(plan); });
   const Targets targets = targets_of(plan, style);
 

@@ -21,7 +21,8 @@ namespace swage {
 enum class DeformMethod {
   poisson,      ///< Sides of triangles stay as they are, turned no more than stretched: one linear solve.
   arap,         ///< Each vertex's triangles keep their shape up to a rotation (spokes and rims, cotangent weights).
-  arap_volume,  ///< So does each tetrahedron of a filling by TetGen, and the triangles of what has no inside.
+  arap_volume,  ///< So does each tetrahedron of a filling by TetGen, and the triangles of what has no inside. Where the
+                ///< triangles cannot be faces of it, it joins their vertices alone; the report's paths tell.
   conformal,    ///< As arap, up to a rotation and a scale.
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "swage/handles.h"
 #include "swage/mesh.h"
 #include "swage/report.h"
 
@@ -17,6 +18,9 @@ struct HandleMark {
   Eigen::Vector3d from, to;  ///< Mesh units; the same where it is held.
   bool reached = false;      ///< The dot is at `to`; else at `from`, with an arrow to `to`.
 };
+
+/// Of a gesture's handles, at the mesh that it is of or, where `reached`, at its edit.
+std::vector<HandleMark> handle_marks(const Gesture& gesture, const PositionsRef& rest, bool reached);
 
 /// Where the eye is, infinitely far away.
 struct View {

@@ -25,7 +25,9 @@ struct ScaffoldOptions {
                              ///< components apart that else share edges.
   bool leave_out_crossing = false;  ///< Triangles that cross or overlap others are then no faces; their vertices stay
                                     ///< corners. Else they are refused.
-  double time_limit = 60;           ///< Seconds of each of TetGen's runs, above 0. To leave out it may run twice.
+  bool faces = true;       ///< Whether the triangles are faces of it. Else it joins their vertices alone, which
+                           ///< suits any surface, and all triangles are left out.
+  double time_limit = 60;  ///< Seconds of each of TetGen's runs, above 0. To leave out it may run twice.
 };
 
 struct Scaffold {

@@ -202,6 +202,19 @@ TEST_F(ScaffoldOf, SizeAndPlaceDoNotMatter) {
   expect_is_a_scaffold(scaffold(far.positions, far.triangles), far, 1.5);
 }
 
+/// Crossing surfaces too, whose triangles could not all be faces.
+TEST_F(ScaffoldOf, VerticesAlone) {
+  const Mesh box = test::box({1, 1, 1}, 3);
+  const Mesh both = test::joined(box, test::transformed(box, 1, {0.43, 0.31, 0.17}));
+  EXPECT_THROW(scaffold(both.positions, both.triangles), Unsolvable);
+  ScaffoldOptions options;
+  options.faces = false;
+  const Scaffold all = scaffold(both.positions, both.triangles, options);
+  EXPECT_EQ(static_cast<Eigen::Index>(all.left_out.size()), both.triangles.rows());
+  std::set<int> corners(all.tetrahedra.data(), all.tetrahedra.data() + all.tetrahedra.size());
+  for (int v = 0; v < both.positions.rows(); ++v) EXPECT_TRUE(corners.contains(v)) << v;
+}
+
 TEST_F(ScaffoldOf, SeveralAtOnceOfAllSizes) {
   std::vector<std::future<void>> threads;
   for (int thread = 0; thread < 4; ++thread) {

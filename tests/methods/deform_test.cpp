@@ -1,7 +1,6 @@
-// The deformations that reshaping is compared with: their closed forms, their minima, and any mesh.
+// What the deformations that reshaping is compared with find: closed forms and minima, of any mesh.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -10,11 +9,10 @@
 
 #include "adjacency.h"
 #include "edit_measures.h"
+#include "gestures.h"
 #include "measures.h"
-#include "opencl_device.h"
 #include "shapes.h"
 #include "swage/deform.h"
-#include "swage/error.h"
 
 namespace swage::test {
 namespace {
@@ -25,26 +23,8 @@ using Eigen::Vector3d;
 using testing::HasSubstr;
 using enum DeformMethod;
 
-/// Every `stride`-th vertex goes where the similarity takes it.
-Gesture carried_by(const Mesh& mesh, const Matrix3d& linear, const Vector3d& translation, int stride = 9) {
-  Gesture gesture;
-  for (int v = 0; v < mesh.positions.rows(); v += stride) {
-    gesture.add(v, linear * mesh.positions.row(v).transpose() + translation);
-  }
-  return gesture;
-}
-
 Positions moved(const Mesh& mesh, const Matrix3d& linear, const Vector3d& translation) {
   return (mesh.positions * linear.transpose()).rowwise() + translation.transpose();
-}
-
-/// Every `stride`-th vertex is held, each moved another way.
-Gesture uneven(const Mesh& mesh, double by, int stride = 15) {
-  Gesture gesture;
-  for (int v = 0; v < mesh.positions.rows(); v += stride) {
-    gesture.add(v, mesh.positions.row(v).transpose() + by * Vector3d(std::sin(v), std::cos(2 * v), std::sin(3 * v)));
-  }
-  return gesture;
 }
 
 const Matrix3d kTurn = AngleAxisd(1.1, Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
@@ -69,26 +49,6 @@ struct Shape {
   std::string name;
   Mesh mesh;
 };
-
-/// Three sheets that share an edge, one of them wound the other way, with a triangle twice, one without area, and a
-/// vertex of none.
-Mesh awkward() {
-  const Mesh one = sheet(4);
-  Mesh mesh = one;
-  for (const double angle : {2.0, 4.0}) {
-    Mesh other = one;
-    other.positions = one.positions * AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix().transpose();
-    if (angle > 3) other.triangles = Triangles(one.triangles.rowwise().reverse());
-    mesh = joined(mesh, other);
-  }
-  const Eigen::Index count = mesh.triangles.rows();
-  mesh.triangles.conservativeResize(count + 2, 3);
-  mesh.triangles.row(count) = mesh.triangles.row(3);
-  mesh.triangles.row(count + 1) << 0, 1, 0;
-  mesh.positions.conservativeResize(mesh.positions.rows() + 1, 3);
-  mesh.positions.bottomRows(1) << 0.3, 0.4, 2;
-  return mesh;
-}
 
 std::vector<Shape> shapes() {
   const Mesh block = box({1, 2, 0.5}, 4);
@@ -237,42 +197,6 @@ TEST(Deform, PlainPassesNeverRaiseTheEnergyAndAcceleratedOnesEndThere) {
   }
 }
 
-TEST(Deform, MeetsItsHandlesExactlyOrAsSoftlyAsAsked) {
-  const Mesh mesh = torus(1, 0.4, 24, 12);
-  const Gesture gesture = move_top(mesh, {0.4, 0.4, 0.2});
-  DeformOptions options;
-  const auto error = [&] {
-    return handle_error(mesh, gesture, deform(mesh.positions, mesh.triangles, gesture, options).positions);
-  };
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
-    options.method = method;
-    options.handle_weight.reset();
-    EXPECT_LT(error(), 1e-12) << to_string(method);
-    options.handle_weight = 1e4;
-    const double firm = error();
-    options.handle_weight = 1;
-    EXPECT_GT(error(), 10 * firm) << to_string(method);
-    EXPECT_GT(firm, 1e-9) << to_string(method);
-  }
-}
-
-TEST(Deform, SolvesAgainWithOrWithoutAStart) {
-  const Mesh mesh = cylinder(0.3, 1, 16, 8);
-  const Gesture first = uneven(mesh, 0.1, 40), second = uneven(mesh, 0.102, 40);
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
-    DeformOptions options;
-    options.method = method;
-    options.movement = 1e-8;
-    Deform plan(mesh.positions, mesh.triangles, options);
-    const DeformResult before = plan.solve(first), cold = plan.solve(second), warm = plan.solve(second, before);
-    EXPECT_EQ(cold.positions, deform(mesh.positions, mesh.triangles, second, options).positions) << to_string(method);
-    EXPECT_LT(deviation(warm.positions, cold.positions).largest, 1e-6) << to_string(method);
-    EXPECT_TRUE(method == poisson || warm.report.passes <= cold.report.passes)
-        << to_string(method) << ": " << warm.report.passes << " passes, from rest " << cold.report.passes;
-    EXPECT_EQ(plan.solve(first).positions, before.positions);
-  }
-}
-
 /// A filled cylinder keeps its section where it is bent; a hollow one collapses more.
 TEST(Deform, AFillingKeepsVolume) {
   const Mesh mesh = cylinder(0.2, 2, 24, 24);
@@ -298,107 +222,6 @@ TEST(Deform, AnOpenSheetHasNoFillingAndIsAShell) {
   const DeformResult shell = deform(mesh.positions, mesh.triangles, gesture, thorough(arap_volume));
   EXPECT_LT(off(mesh, gesture, thorough(arap), shell.positions), 1e-7);
   EXPECT_THAT(shell.report.paths.at("filling"), HasSubstr("0 tetrahedra"));
-}
-
-TEST(Deform, TellsWhatTheMeshIs) {
-  const Mesh mesh = awkward();
-  const DeformResult result = deform(mesh.positions, mesh.triangles, carried_by(mesh, kTurn, kShift));
-  std::string warnings;
-  for (const std::string& warning : result.report.warnings) warnings += warning + "\n";
-  for (const char* word : {"more than two triangles", "repeats", "two corners at one place", "no triangle"}) {
-    EXPECT_THAT(warnings, HasSubstr(word));
-  }
-}
-
-TEST(Deform, IsTheSameBytesOnOneThreadAndTwo) {
-  const Mesh mesh = joined(torus(1, 0.4, 24, 12), transformed(box(), 1, {2, 0, 0}));
-  const Gesture gesture = move_top(mesh, {0.4, 0.4, 0.2});
-  const int threads = omp_get_max_threads();
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
-    DeformOptions options;
-    options.method = method;
-    omp_set_num_threads(1);
-    const Positions one = deform(mesh.positions, mesh.triangles, gesture, options).positions;
-    omp_set_num_threads(2);
-    EXPECT_EQ(deform(mesh.positions, mesh.triangles, gesture, options).positions, one) << to_string(method);
-  }
-  omp_set_num_threads(threads);
-}
-
-TEST(Deform, OnADeviceIsAsOnTheReference) {
-  const Mesh mesh = torus(1, 0.4, 24, 12);
-  const Gesture gesture = move_top(mesh, {0.4, 0.4, 0.2});
-  for (const Precision precision : {Precision::twice, Precision::single}) {
-    const auto backend = opencl_or_skip(precision);
-    if (!backend) return;
-    for (const DeformMethod method : {arap, arap_volume, conformal}) {
-      DeformOptions options;
-      options.method = method;
-      options.movement = 1e-6;
-      const Positions reference = deform(mesh.positions, mesh.triangles, gesture, options).positions;
-      options.backend = backend;
-      const Positions device = deform(mesh.positions, mesh.triangles, gesture, options).positions;
-      EXPECT_LT(deviation(device, reference).largest, 1e-4) << to_string(method);
-    }
-  }
-}
-
-TEST(Deform, CanBeCancelled) {
-  const Mesh mesh = torus(1, 0.4, 24, 12);
-  const Gesture gesture = move_top(mesh, {0.4, 0.4, 0.2});
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
-    DeformOptions options;
-    options.method = method;
-    Deform plan(mesh.positions, mesh.triangles, options);
-    EXPECT_FALSE(plan.prepare([](const Progress&) { return false; }));
-    const DeformResult result = plan.solve(gesture, [](const Progress&) { return false; });
-    EXPECT_EQ(result.report.stop, Termination::cancelled);
-    EXPECT_EQ(result.positions, mesh.positions);
-    double last = 0;
-    plan.solve(gesture, [&](const Progress& now) {
-      EXPECT_GE(now.fraction, last);
-      EXPECT_LE(now.fraction, 1);
-      last = now.fraction;
-      return true;
-    });
-    EXPECT_GT(last, 0);
-  }
-}
-
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
-TEST(Deform, RefusesWhatItCannotDo) {
-  const Mesh mesh = sheet(2);
-  const Gesture gesture = move_top(mesh, {0, 0, 1});
-  const auto with = [&](const auto& set) {
-    DeformOptions options;
-    set(options);
-    return refusal([&] { Deform(mesh.positions, mesh.triangles, options); });
-  };
-  EXPECT_THAT(with([](auto& o) { o.handle_weight = 0; }), HasSubstr("handle_weight"));
-  EXPECT_THAT(with([](auto& o) { o.handle_weight = std::nan(""); }), HasSubstr("handle_weight"));
-  EXPECT_THAT(with([](auto& o) { o.pass_limit = 0; }), HasSubstr("pass_limit"));
-  EXPECT_THAT(with([](auto& o) { o.movement = 0; }), HasSubstr("movement"));
-  EXPECT_THAT(with([](auto& o) { o.acceleration_window = -1; }), HasSubstr("acceleration_window"));
-  EXPECT_THAT(with([](auto& o) { o.filling_time_limit = 0; }), HasSubstr("filling_time_limit"));
-  Mesh flat = mesh;
-  flat.positions.col(0).setZero();
-  flat.positions.col(2).setZero();
-  EXPECT_THAT(refusal([&] { Deform(flat.positions, flat.triangles); }), HasSubstr("Deform: triangles: none"));
-  Deform plan(mesh.positions, mesh.triangles);
-  EXPECT_THAT(refusal([&] { plan.solve({}); }), HasSubstr("handle"));
-  EXPECT_THAT(refusal([&] { plan.solve(gesture, DeformResult{Positions::Zero(3, 3), {}}); }), HasSubstr("3 rows"));
-  DeformResult start{mesh.positions, {}};
-  start.positions(1, 1) = std::nan("");
-  EXPECT_THAT(refusal([&] { plan.solve(gesture, start); }), HasSubstr("not finite"));
 }
 
 }  // namespace

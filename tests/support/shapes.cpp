@@ -197,4 +197,22 @@ double volume(const Mesh& mesh) {
   return sum;
 }
 
+Mesh awkward() {
+  const Mesh one = sheet(4);
+  Mesh mesh = one;
+  for (const double angle : {2.0, 4.0}) {
+    Mesh other = one;
+    other.positions = one.positions * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix().transpose();
+    if (angle > 3) other.triangles = Triangles(one.triangles.rowwise().reverse());
+    mesh = joined(mesh, other);
+  }
+  const Eigen::Index count = mesh.triangles.rows();
+  mesh.triangles.conservativeResize(count + 2, 3);
+  mesh.triangles.row(count) = mesh.triangles.row(3);
+  mesh.triangles.row(count + 1) << 0, 1, 0;
+  mesh.positions.conservativeResize(mesh.positions.rows() + 1, 3);
+  mesh.positions.bottomRows(1) << 0.3, 0.4, 2;
+  return mesh;
+}
+
 }  // namespace swage::test

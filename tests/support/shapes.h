@@ -28,6 +28,10 @@ Gesture move_top(const Mesh& mesh, const Eigen::Vector3d& by);
 Mesh joined(const Mesh& a, const Mesh& b);
 Mesh transformed(const Mesh& mesh, double scale, const Eigen::Vector3d& translation);
 
+/// Three sheets that share an edge, one of them wound the other way, with a triangle twice, one without area, and a
+/// vertex of none.
+Mesh awkward();
+
 /// Enclosed by a closed mesh; negative where it winds inside out.
 double volume(const Mesh& mesh);
 

@@ -4,7 +4,9 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_deformation.h>
 
-namespace swage::bench {
+#include "swage/error.h"
+
+namespace swage::test {
 namespace {
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
@@ -16,7 +18,11 @@ CGAL::SM_Vertex_index vertex(int i) { return CGAL::SM_Vertex_index(static_cast<C
 Surface surface_of(const Mesh& mesh) {
   Surface surface;
   for (const auto& p : mesh.positions.rowwise()) surface.add_vertex(Point(p[0], p[1], p[2]));
-  for (const auto& t : mesh.triangles.rowwise()) surface.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+  for (const auto& t : mesh.triangles.rowwise()) {
+    if (surface.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2])) == Surface::null_face()) {
+      throw Unsolvable("CGAL takes the mesh for no manifold");
+    }
+  }
   return surface;
 }
 
@@ -34,7 +40,7 @@ CgalArap::CgalArap(const Mesh& mesh, const Gesture& gesture) : parts_(std::make_
   SpokesAndRims& deformation = parts_->deformation;
   deformation.insert_roi_vertices(parts_->surface.vertices().begin(), parts_->surface.vertices().end());
   for (const auto& [i, target] : gesture.targets) deformation.insert_control_vertex(vertex(i));
-  deformation.preprocess();
+  if (!deformation.preprocess()) throw Unsolvable("CGAL finds the system singular");
 }
 
 CgalArap::~CgalArap() = default;
@@ -45,7 +51,17 @@ void CgalArap::solve(int passes) {
   for (const auto& [i, target] : parts_->gesture.targets) {
     deformation.set_target_position(vertex(i), Point(target[0], target[1], target[2]));
   }
-  deformation.deform(static_cast<unsigned>(passes), 0);
+  deformation.deform(static_cast<unsigned>(passes), 0);  // No tolerance: all passes, and no energy computed in between.
 }
 
-}  // namespace swage::bench
+Positions CgalArap::positions() const {
+  const Surface& surface = parts_->surface;
+  Positions result(static_cast<Eigen::Index>(surface.number_of_vertices()), 3);
+  for (int i = 0; i < result.rows(); ++i) {
+    const Point& p = surface.point(vertex(i));
+    result.row(i) << p.x(), p.y(), p.z();
+  }
+  return result;
+}
+
+}  // namespace swage::test

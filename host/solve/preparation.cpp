@@ -1,0 +1,22 @@
+#include "preparation.h"
+
+namespace swage {
+
+Preparation::Preparation(const ProgressFn& progress, int pass_limit)
+    : progress_(progress), now_{"", 0, pass_limit, 0, 0}, poll_(sparing([this] { return goes_on(); })) {}
+
+void Preparation::begin(const char* stage, double part) {
+  now_.stage = stage;
+  now_.fraction = part * kPrepared;
+  if (!goes_on()) throw Cancelled();
+}
+
+ProgressFn after_preparation(const ProgressFn& progress) {
+  if (!progress) return progress;
+  return [&progress](Progress p) {
+    p.fraction = kPrepared + (1 - kPrepared) * p.fraction;
+    return progress(p);
+  };
+}
+
+}  // namespace swage
