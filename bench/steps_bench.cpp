@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "adjacency.h"
 #include "bench_main.h"
 #include "element_pairs.h"
 #include "flops.h"
+#include "measures.h"
 #include "plan.h"
 #include "procrustes.h"
 #include "step_inputs.h"
@@ -217,6 +219,36 @@ void add_curvature() {
   });
 }
 
+/// An element a vertex: six triangles with an area vector between two vertices each, and what is found.
+void add_normal_fit() {
+  add_step("normal_fit", [](const Backend& backend, int elements, double) {
+    const Mesh mesh = mesh_of(2 * elements);
+    const auto count = static_cast<int>(mesh.positions.rows());
+    const Lists around = triangles_of_vertices(mesh.triangles, count);
+    NormalFitStep::Rest rest{{0}, {}, static_cast<int>(mesh.triangles.rows())};
+    for (int v = 0; v < count; ++v) {
+      for (const int t : around[v]) rest.triangles.push_back(t);
+      rest.offsets.push_back(static_cast<int>(rest.triangles.size()));
+    }
+    const std::shared_ptr<NormalFitStep> step = backend.normal_fit(rest);
+    const Positions areas = area_vectors(mesh.positions, mesh.triangles);
+    const auto directions = std::make_shared<Transforms>();
+    const auto spreads = std::make_shared<Positions>();
+    return Work{[=] { step->fit(areas, *directions, *spreads); }, 7 * kIndex + (2 * 3 + 12) * kHost};
+  });
+}
+
+/// An element a vertex: its normal and the number of the closest of ten thousand.
+void add_closest_normal() {
+  add_step("closest_normal", [](const Backend& backend, int elements, double) {
+    const Positions styles = normalised(Positions::Random(10'000, 3));
+    const Positions units = normalised(Positions::Random(elements, 3));
+    const std::shared_ptr<ClosestNormalStep> step = backend.closest_normal(styles);
+    const auto closest = std::make_shared<Eigen::VectorXi>();
+    return Work{[=] { step->find(units, *closest); }, 3 * kHost + kIndex};
+  });
+}
+
 /// The closest rotations alone, of matrices that lie where they are needed.
 void add_closest_rotation_by_cpu() {
   for (const int elements : kSizes) {
@@ -290,6 +322,8 @@ void register_all() {
   add_transform();
   add_coupling();
   add_curvature();
+  add_normal_fit();
+  add_closest_normal();
   add_closest_rotation_by_cpu();
 #ifdef SWAGE_BENCH_OPENCL
   add_closest_rotation_by_device();

@@ -19,6 +19,12 @@ class CpuBackend final : public Backend {
   std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const override {
     return cpu_curvature(rest);
   }
+  std::unique_ptr<NormalFitStep> normal_fit(const NormalFitStep::Rest& rest) const override {
+    return cpu_normal_fit(rest);
+  }
+  std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const override {
+    return cpu_closest_normal(normals);
+  }
 };
 
 }  // namespace

@@ -12,5 +12,7 @@ std::unique_ptr<SimilarityStep> cpu_similarity(const PairsRest& rest);
 std::unique_ptr<TransformStep> cpu_transform(std::shared_ptr<const TransformStep::Rest> rest);
 std::unique_ptr<CouplingStep> cpu_coupling(const TransformStep::Rest& rest);
 std::unique_ptr<CurvatureStep> cpu_curvature(const CurvatureStep::Rest& rest);
+std::unique_ptr<NormalFitStep> cpu_normal_fit(const NormalFitStep::Rest& rest);
+std::unique_ptr<ClosestNormalStep> cpu_closest_normal(const Positions& normals);
 
 }  // namespace swage

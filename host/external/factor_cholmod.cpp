@@ -131,14 +131,14 @@ class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper,
                                                 columns.cols());
   }
 
-  std::optional<Panels> panels() const override {
+  std::optional<Supernodes> supernodes() const override {
     const cholmod_factor& factor = *m_cholmodFactor;
     auto ints = [](const void* first, size_t count) {
       return std::vector<int>(static_cast<const int*>(first), static_cast<const int*>(first) + count);
     };
-    return Panels({ints(factor.Perm, factor.n), ints(factor.super, factor.nsuper + 1),
-                   ints(factor.pi, factor.nsuper + 1), ints(factor.s, factor.ssize), ints(factor.px, factor.nsuper + 1),
-                   static_cast<const double*>(factor.x)});
+    return Supernodes{ints(factor.Perm, factor.n),        ints(factor.super, factor.nsuper + 1),
+                      ints(factor.pi, factor.nsuper + 1), ints(factor.s, factor.ssize),
+                      ints(factor.px, factor.nsuper + 1), static_cast<const double*>(factor.x)};
   }
 
   Eigen::Index entries() const override { return static_cast<Eigen::Index>(m_cholmodFactor->xsize); }

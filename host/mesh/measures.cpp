@@ -12,6 +12,7 @@ namespace swage {
 namespace {
 
 constexpr double kNoHeight = 1e-10;
+constexpr Eigen::Index kWorthThreads = 20000;
 
 }  // namespace
 
@@ -25,12 +26,19 @@ Positions edge_vectors(const Positions& positions, const Edges& edges) {
 
 Positions area_vectors(const Positions& positions, const Triangles& triangles) {
   Positions areas(triangles.rows(), 3);
+#pragma omp parallel for schedule(static) if (triangles.rows() > kWorthThreads)
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Eigen::RowVector3d a = positions.row(triangles(t, 0));
     const Eigen::RowVector3d ab = positions.row(triangles(t, 1)) - a, ac = positions.row(triangles(t, 2)) - a;
     areas.row(t) = ab.cross(ac);
   }
   return areas;
+}
+
+Positions normalised(Positions rows) {
+#pragma omp parallel for schedule(static) if (rows.rows() > kWorthThreads)
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i).stableNormalize();
+  return rows;
 }
 
 Positions unit_normals(const Positions& positions, const Triangles& triangles) {

@@ -12,6 +12,9 @@ Positions edge_vectors(const Positions& positions, const Edges& edges);
 /// #T × 3: twice the area long, along the normal.
 Positions area_vectors(const Positions& positions, const Triangles& triangles);
 
+/// Each row of length 1, but for those of length 0.
+Positions normalised(Positions rows);
+
 /// #T × 3, unit; zero where a triangle has no area.
 Positions unit_normals(const Positions& positions, const Triangles& triangles);
 

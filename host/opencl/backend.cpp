@@ -32,6 +32,12 @@ class OpenClBackend final : public Backend {
   std::unique_ptr<CurvatureStep> curvature(const CurvatureStep::Rest& rest) const override {
     return opencl_curvature(context_, rest);
   }
+  std::unique_ptr<NormalFitStep> normal_fit(const NormalFitStep::Rest& rest) const override {
+    return opencl_normal_fit(context_, rest);
+  }
+  std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const override {
+    return opencl_closest_normal(context_, normals);
+  }
 
  private:
   Device facts_;

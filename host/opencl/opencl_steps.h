@@ -15,5 +15,7 @@ std::unique_ptr<SimilarityStep> opencl_similarity(const SharedContext& context, 
 std::unique_ptr<TransformStep> opencl_transform(const SharedContext& context, const TransformStep::Rest& rest);
 std::unique_ptr<CouplingStep> opencl_coupling(const SharedContext& context, const TransformStep::Rest& rest);
 std::unique_ptr<CurvatureStep> opencl_curvature(const SharedContext& context, const CurvatureStep::Rest& rest);
+std::unique_ptr<NormalFitStep> opencl_normal_fit(const SharedContext& context, const NormalFitStep::Rest& rest);
+std::unique_ptr<ClosestNormalStep> opencl_closest_normal(const SharedContext& context, const Positions& normals);
 
 }  // namespace swage

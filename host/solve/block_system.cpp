@@ -147,7 +147,7 @@ Eigen::MatrixXd BlockSystem::solve(const Eigen::Ref<const Eigen::MatrixXd>& righ
 }
 
 bool BlockSystem::keep_single() {
-  panels_ = factor_->panels();
+  panels_ = panels_of<SinglePanels>(*factor_);
   if (!panels_) return false;
   const Eigen::VectorXd solution =
       Eigen::VectorXd::NullaryExpr(unknowns(), [](Eigen::Index i) { return std::sin(static_cast<double>(i)); });
@@ -191,7 +191,7 @@ Eigen::VectorXd BlockSystem::solve_near(const Eigen::Ref<const Eigen::VectorXd>&
     if (done.converged) return as_given(near);
   }
   factor();
-  panels_ = factor_->panels();
+  panels_ = panels_of<SinglePanels>(*factor_);
   factor_is_near_ = true;
   return solve(right_hand_side);
 }

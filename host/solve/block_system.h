@@ -129,7 +129,7 @@ class BlockSystem {
   std::shared_ptr<const Pattern> pattern_;
   SparseMatrix matrix_;  // Upper triangle, groups in order.
   std::unique_ptr<Factor> factor_;
-  std::optional<Panels> panels_;  // In its place.
+  std::optional<SinglePanels> panels_;  // In its place.
   Eigen::Index kept_entries_ = 0;
   bool factor_is_near_ = false;  // Whether it is worth preconditioning with.
   bool analyzed_ = false;

@@ -26,11 +26,19 @@ class Factor {
   virtual int factorize(const SparseMatrix& matrix) = 0;
   /// Right-hand sides, a column each, become solutions.
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> columns) const = 0;
-  /// A copy in single precision, of factors made of dense blocks.
-  virtual std::optional<Panels> panels() const { return std::nullopt; }
+  /// Of factors made of dense blocks: what panels copy.
+  virtual std::optional<Supernodes> supernodes() const { return std::nullopt; }
   /// Entries held for the factor.
   virtual Eigen::Index entries() const = 0;
 };
+
+/// The factor laid out as panels, SinglePanels or AxisPanels, where it is made of dense blocks.
+template <class Panels>
+std::optional<Panels> panels_of(const Factor& factor) {
+  const std::optional<Supernodes> supernodes = factor.supernodes();
+  if (!supernodes) return std::nullopt;
+  return Panels(*supernodes);
+}
 
 std::unique_ptr<Factor> simplicial_factor();
 

@@ -122,6 +122,8 @@ HeldLaplacian::HeldLaplacian(const LaplacianSystem& system, const HeldPoints& po
   factor_->analyze(among);
   const int first_bad = factor_->factorize(among);
   if (first_bad >= 0) throw Indefinite(among.rows(), free_[static_cast<size_t>(first_bad)]);
+  panels_ = panels_of<AxisPanels>(*factor_);
+  if (panels_) factor_.reset();
 }
 
 void HeldLaplacian::place_free(const SparseMatrix& matrix) {
@@ -181,9 +183,15 @@ Positions HeldLaplacian::solve(const Positions& right_hand_sides, const HeldPoin
   }
   all(fixed_, Eigen::all) = points.fixed_targets;
   if (free_.empty()) return all;
-  Eigen::MatrixXd free = all(free_, Eigen::all);
+  Positions free = all(free_, Eigen::all);
   free -= coupling_ * points.fixed_targets;
-  factor_->solve(free);
+  if (panels_) {
+    panels_->solve(free);
+  } else {
+    Eigen::MatrixXd columns = free;
+    factor_->solve(columns);
+    free = columns;
+  }
   all(free_, Eigen::all) = free;
   return all;
 }
@@ -191,6 +199,7 @@ Positions HeldLaplacian::solve(const Positions& right_hand_sides, const HeldPoin
 std::size_t HeldLaplacian::coupling_bytes() const { return bytes_of(coupling_); }
 
 std::size_t HeldLaplacian::factor_bytes() const {
+  if (panels_) return panels_->bytes();
   return factor_ ? static_cast<std::size_t>(factor_->entries()) * sizeof(double) : 0;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -92,6 +93,7 @@ class HeldLaplacian {
   std::vector<int> place_;  // Of each vertex in free_; below 0 where it is fixed.
   SparseMatrix coupling_;   // #free × #fixed
   std::unique_ptr<Factor> factor_;
+  std::optional<AxisPanels> panels_;  // In its place, of a factor made of dense blocks.
 };
 
 /// The last one made, for whoever holds the same points next. Threads may share it.

@@ -12,7 +12,7 @@ constexpr int kLargest = 6;                     // Part of all values that a sub
 constexpr std::size_t kWorthThreads = 500'000;  // Values. Fewer are read sooner than threads have met.
 
 /// The panel in which each one's first row below its columns is a column: its parent in the elimination tree, or -1.
-std::vector<int> parents(const Panels::Source& source) {
+std::vector<int> parents(const Supernodes& source) {
   const auto count = source.columns.size() - 1;
   std::vector<int> panel_of_column(static_cast<size_t>(source.columns.back()));
   for (size_t p = 0; p < count; ++p) {
@@ -29,7 +29,7 @@ std::vector<int> parents(const Panels::Source& source) {
 }
 
 /// Values in each panel and all below it in the tree.
-std::vector<std::int64_t> sizes_of_subtrees(const Panels::Source& source, const std::vector<int>& parent) {
+std::vector<std::int64_t> sizes_of_subtrees(const Supernodes& source, const std::vector<int>& parent) {
   std::vector<std::int64_t> size(parent.size());
   for (size_t p = 0; p < size.size(); ++p) {
     size[p] += source.value_offsets[p + 1] - source.value_offsets[p];
@@ -64,16 +64,56 @@ std::vector<int> branches(const std::vector<int>& parent, const std::vector<std:
   return branch;
 }
 
+constexpr int kAtOnce = 4;  // Columns of a panel: the rows below are read and written once for all of them.
+
+/// `n` columns of a panel from column c on.
+template <typename Scalar, int n>
+struct Columns {
+  using Block = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, n>, 0, Eigen::OuterStride<>>;
+
+  Columns(const Scalar* values, int rows, int c)
+      : diagonal(values + std::ptrdiff_t{c} * rows + c, n, n, Eigen::OuterStride<>(rows)),
+        below(values + std::ptrdiff_t{c} * rows + c + n, rows - c - n, n, Eigen::OuterStride<>(rows)) {}
+
+  Block diagonal, below;
+};
+
+/// Solves for the columns, and takes from the rows below what they give there.
+template <int n, typename Scalar, int kSides>
+void take_columns(const Columns<Scalar, n>& columns, int c, Eigen::Matrix<Scalar, Eigen::Dynamic, kSides>& work) {
+  Eigen::Matrix<Scalar, n, kSides> x = work.template middleRows<n>(c);
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < k; ++j) x.row(k) -= columns.diagonal(k, j) * x.row(j);
+    x.row(k) /= columns.diagonal(k, k);
+  }
+  work.template middleRows<n>(c) = x;
+  work.middleRows(c + n, columns.below.rows()).noalias() -= columns.below.lazyProduct(x);
+}
+
+/// Takes from the columns what the rows below give to them, and solves for them by the transpose.
+template <int n, typename Scalar, int kSides>
+void give_columns(const Columns<Scalar, n>& columns, int c, Eigen::Matrix<Scalar, Eigen::Dynamic, kSides>& work) {
+  Eigen::Matrix<Scalar, n, kSides> x = work.template middleRows<n>(c);
+  x -= columns.below.transpose().lazyProduct(work.middleRows(c + n, columns.below.rows()));
+  for (int k = n - 1; k >= 0; --k) {
+    for (int j = k + 1; j < n; ++j) x.row(k) -= columns.diagonal(j, k) * x.row(j);
+    x.row(k) /= columns.diagonal(k, k);
+  }
+  work.template middleRows<n>(c) = x;
+}
+
 }  // namespace
 
-Panels::Panels(const Source& source) {
+template <typename Scalar, int kSides>
+Panels<Scalar, kSides>::Panels(const Supernodes& source) {
   const std::vector<int> place = cut(source);
   copy(source, place);
   place_.resize(place.size());
   for (size_t c = 0; c < place.size(); ++c) place_[static_cast<size_t>(source.order[c])] = place[c];
 }
 
-std::vector<int> Panels::cut(const Source& source) {
+template <typename Scalar, int kSides>
+std::vector<int> Panels<Scalar, kSides>::cut(const Supernodes& source) {
   const std::vector<int> parent = parents(source);
   const std::vector<int> branch =
       branches(parent, sizes_of_subtrees(source, parent), source.value_offsets.back() / kLargest);
@@ -98,7 +138,8 @@ std::vector<int> Panels::cut(const Source& source) {
   return place;
 }
 
-void Panels::copy(const Source& source, const std::vector<int>& place) {
+template <typename Scalar, int kSides>
+void Panels<Scalar, kSides>::copy(const Supernodes& source, const std::vector<int>& place) {
   rows_.reserve(source.rows.size());
   values_.reserve(static_cast<size_t>(source.value_offsets.back()));
   for (const int p : order_) {
@@ -122,70 +163,74 @@ void Panels::copy(const Source& source, const std::vector<int>& place) {
   }
 }
 
-void Panels::forward(const Panel& panel, Eigen::VectorXf& x, float* trunk, Eigen::VectorXf& work) const {
+template <typename Scalar, int kSides>
+void Panels<Scalar, kSides>::forward(const Panel& panel, Rows& x, Rows* trunk, Work& work) const {
   const int rows_of_panel = panel.columns + panel.below;
-  auto own = x.segment(panel.first, panel.columns);
-  work.head(rows_of_panel).setZero();
-  work.head(panel.columns) = own;
-  for (int c = 0; c < panel.columns; ++c) {
-    const Column column = below_diagonal(panel, c);
-    own[c] = work[c] / diagonal(panel, c);
-    work.segment(c + 1, column.size()) -= own[c] * column;
+  const Scalar* values = values_.data() + panel.values;
+  for (int s = 0; s < kSides; ++s) {
+    Scalar* side = work.col(s).data();
+    for (int c = 0; c < panel.columns; ++c) side[c] = x(panel.first + c, s);
+    std::fill(side + panel.columns, side + rows_of_panel, Scalar{0});
   }
+  int c = 0;
+  for (; c + kAtOnce <= panel.columns; c += kAtOnce)
+    take_columns<kAtOnce, Scalar, kSides>({values, rows_of_panel, c}, c, work);
+  for (; c < panel.columns; ++c) take_columns<1, Scalar, kSides>({values, rows_of_panel, c}, c, work);
+  x.middleRows(panel.first, panel.columns) = work.topRows(panel.columns);
   const int* rows = rows_.data() + panel.rows;
-  for (int i = 0; i < panel.inside; ++i) x[rows[i]] += work[panel.columns + i];
-  for (int i = panel.inside; i < panel.below; ++i) trunk[rows[i] - trunk_] += work[panel.columns + i];
+  for (int i = 0; i < panel.inside; ++i) x.row(rows[i]) += work.row(panel.columns + i);
+  for (int i = panel.inside; i < panel.below; ++i) trunk->row(rows[i] - trunk_) += work.row(panel.columns + i);
 }
 
-void Panels::backward(const Panel& panel, Eigen::VectorXf& x, Eigen::VectorXf& work) const {
-  auto own = x.segment(panel.first, panel.columns);
-  const int* rows = rows_.data() + panel.rows;
-  work.head(panel.columns) = own;
-  for (int i = 0; i < panel.below; ++i) work[panel.columns + i] = x[rows[i]];
-  for (int c = panel.columns - 1; c >= 0; --c) {
-    const Column column = below_diagonal(panel, c);
-    work[c] = (work[c] - column.dot(work.segment(c + 1, column.size()))) / diagonal(panel, c);
-  }
-  own = work.head(panel.columns);
-}
-
-float Panels::diagonal(const Panel& panel, int column) const {
-  return values_[static_cast<size_t>(panel.values + std::ptrdiff_t{column} * (panel.columns + panel.below) + column)];
-}
-
-Panels::Column Panels::below_diagonal(const Panel& panel, int column) const {
+template <typename Scalar, int kSides>
+void Panels<Scalar, kSides>::backward(const Panel& panel, Rows& x, Work& work) const {
   const int rows_of_panel = panel.columns + panel.below;
-  return {values_.data() + panel.values + std::ptrdiff_t{column} * rows_of_panel + column + 1,
-          rows_of_panel - column - 1};
+  const Scalar* values = values_.data() + panel.values;
+  const int* rows = rows_.data() + panel.rows;
+  work.topRows(panel.columns) = x.middleRows(panel.first, panel.columns);
+  for (int i = 0; i < panel.below; ++i) work.row(panel.columns + i) = x.row(rows[i]);
+  int c = panel.columns;
+  for (; c % kAtOnce != 0; --c) give_columns<1, Scalar, kSides>({values, rows_of_panel, c - 1}, c - 1, work);
+  for (; c > 0; c -= kAtOnce)
+    give_columns<kAtOnce, Scalar, kSides>({values, rows_of_panel, c - kAtOnce}, c - kAtOnce, work);
+  x.middleRows(panel.first, panel.columns) = work.topRows(panel.columns);
 }
 
-void Panels::solve(Eigen::Ref<Eigen::VectorXd> column) const {
-  Eigen::VectorXf x(column.size());
-  for (Eigen::Index c = 0; c < column.size(); ++c) x[place_[static_cast<size_t>(c)]] = static_cast<float>(column[c]);
+template <typename Scalar, int kSides>
+void Panels<Scalar, kSides>::solve(Eigen::Ref<Sides> sides) const {
+  Rows x(sides.rows(), kSides);
+  for (Eigen::Index c = 0; c < sides.rows(); ++c) {
+    x.row(place_[static_cast<size_t>(c)]) = sides.row(c).template cast<Scalar>();
+  }
   const auto panel_count = static_cast<int>(panels_.size());
   // What each branch adds to the trunk.
-  Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(x.size() - trunk_, kBranches);
+  std::vector<Rows> sums(kBranches, Rows::Zero(x.rows() - trunk_, kSides));
 #pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads)
   for (int b = 0; b < kBranches; ++b) {
-    Eigen::VectorXf work(most_rows_);
-    float* trunk = sums.data() + b * sums.rows();
+    Work work(most_rows_, kSides);
+    Rows& trunk = sums[static_cast<size_t>(b)];
     for (int p = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)]; p < branch_ends_[static_cast<size_t>(b)]; ++p) {
-      forward(panels_[static_cast<size_t>(p)], x, trunk, work);
+      forward(panels_[static_cast<size_t>(p)], x, &trunk, work);
     }
   }
-  Eigen::VectorXf work(most_rows_);
-  x.tail(sums.rows()) += sums.rowwise().sum();
+  Work work(most_rows_, kSides);
+  for (const Rows& sum : sums) x.bottomRows(sum.rows()) += sum;
   for (int p = branch_ends_.back(); p < panel_count; ++p) forward(panels_[static_cast<size_t>(p)], x, nullptr, work);
   for (int p = panel_count - 1; p >= branch_ends_.back(); --p) backward(panels_[static_cast<size_t>(p)], x, work);
 #pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads)
   for (int b = 0; b < kBranches; ++b) {
-    Eigen::VectorXf own_work(most_rows_);
+    Work own_work(most_rows_, kSides);
     const int begin = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)];
     for (int p = branch_ends_[static_cast<size_t>(b)] - 1; p >= begin; --p) {
       backward(panels_[static_cast<size_t>(p)], x, own_work);
     }
   }
-  for (Eigen::Index c = 0; c < column.size(); ++c) column[c] = static_cast<double>(x[place_[static_cast<size_t>(c)]]);
+  for (Eigen::Index c = 0; c < sides.rows(); ++c) {
+    sides.row(c) = x.row(place_[static_cast<size_t>(c)]).template cast<double>();
+  }
 }
+
+template class Panels<float, 1>;
+template class Panels<double, 3>;
 
 }  // namespace swage

@@ -1,49 +1,44 @@
 // Normals that nearly unroll (paper appendix E; Stein, Grinspun, Crane: Developability of Triangle Meshes. SIGGRAPH
 // 2018).
-#include <Eigen/Eigenvalues>
 #include <utility>
 
-#include "directions.h"
 #include "targets.h"
 
 namespace swage {
 namespace {
 
-using Eigen::Index;
-using Eigen::Matrix3d;
+using Eigen::RowVector3d;
 
-/// Takes from a normal its part along the directions in which the normals around a vertex spread least.
-Matrix3d projection(const Matrix3d& moment, double tau, double threshold) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moment);
-  const auto weakest = solver.eigenvectors().col(0), second = solver.eigenvectors().col(1);
-  Matrix3d result = Matrix3d::Identity() - weakest * weakest.transpose();
-  const double least = threshold > 0 ? threshold : tau * moment.trace();
-  if (solver.eigenvalues()[1] < least) result -= second * second.transpose();
+/// A normal without its part along the directions in which the normals around a vertex spread least.
+RowVector3d projected(const RowVector3d& normal, const Transforms& directions, bool to_one, Eigen::Index vertex) {
+  const RowVector3d weakest = directions.row(vertex).head<3>(), second = directions.row(vertex).segment<3>(3);
+  RowVector3d result = normal - normal.dot(weakest) * weakest;
+  if (to_one) result -= normal.dot(second) * second;
   return result;
 }
 
 }  // namespace
 
-Positions developable_normals(const StylizePlan& plan, const Developable& style, const Positions& positions) {
+Positions developable_normals(const StylizePlan& plan, NormalFitStep& step, const Developable& style,
+                              const Positions& positions) {
   const Triangles& triangles = plan.mesh.triangles;
   Positions normals = area_vectors(positions, triangles);
-  const Eigen::VectorXd areas = normals.rowwise().norm() / 2;
+  Transforms directions;
+  Positions spreads;
+  step.fit(normals, directions, spreads);
   normals = normalised(std::move(normals));
   // As the authors' program: of twice the areas.
   const double threshold = style.threshold / (2 * plan.box.extent * plan.box.extent);
-  Transforms projections(positions.rows(), 9);
-#pragma omp parallel for schedule(static)
-  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
-    Matrix3d moment = Matrix3d::Zero();
-    for (const int t : plan.triangles_around[v]) moment += areas[t] * normals.row(t).transpose() * normals.row(t);
-    Eigen::Map<Matrix3d>(projections.row(v).data()) = projection(moment, style.tau, threshold);
-  }
+  const auto is_one = [&](Eigen::Index v) {
+    return spreads(v, 1) < (threshold > 0 ? threshold : style.tau * spreads.row(v).sum());
+  };
   Positions targets(triangles.rows(), 3);
 #pragma omp parallel for schedule(static)
-  for (Index t = 0; t < triangles.rows(); ++t) {
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    RowVector3d sum = RowVector3d::Zero();
     for (int k = 0; k < 3; ++k) {
-      sum += normals.row(t) * Eigen::Map<const Matrix3d>(projections.row(triangles(t, k)).data());
+      const int v = triangles(t, k);
+      sum += projected(normals.row(t), directions, is_one(v), v);
     }
     targets.row(t) = sum;
   }

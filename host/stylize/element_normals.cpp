@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "directions.h"
-
 namespace swage {
 
 Positions sums_around(const StylizePlan& plan, const Positions& of_triangles) {

@@ -50,6 +50,17 @@ std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan) {
   return steps;
 }
 
+std::unique_ptr<NormalFitStep> normal_fit_of(const StylizePlan& plan) {
+  NormalFitStep::Rest rest;
+  rest.triangle_count = static_cast<int>(plan.mesh.triangles.rows());
+  rest.offsets.push_back(0);
+  for (int v = 0; v < static_cast<int>(plan.mesh.positions.rows()); ++v) {
+    for (const int t : plan.triangles_around[v]) rest.triangles.push_back(t);
+    rest.offsets.push_back(static_cast<int>(rest.triangles.size()));
+  }
+  return plan.options.backend->normal_fit(rest);
+}
+
 StylizeFit unmoved(Eigen::Index element_count) {
   return {identities(element_count), Eigen::VectorXd::Ones(element_count)};
 }

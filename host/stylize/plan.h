@@ -27,6 +27,7 @@ namespace swage {
 struct StylizeSteps {
   std::unique_ptr<RotationStep> rotation;
   std::unique_ptr<SimilarityStep> similarity;  ///< In its place, of acap with exact scales.
+  std::unique_ptr<NormalFitStep> normal_fit;   ///< Once a style is developable.
 };
 
 /// What the local step finds.
@@ -75,6 +76,7 @@ HeldPoints points_held(const StylizePlan& plan, const Gesture& handles);
 
 // fit.cpp
 std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan);
+std::unique_ptr<NormalFitStep> normal_fit_of(const StylizePlan& plan);
 StylizeFit unmoved(Eigen::Index element_count);
 /// The local step, from what it found before.
 void fit(const StylizePlan& plan, StylizeSteps& steps, const Positions& positions, const Positions& targets,

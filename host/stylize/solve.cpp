@@ -57,7 +57,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   const std::shared_ptr<const HeldLaplacian> held =
       held_laplacian(plan.last_held, plan.system, points, plan.given, "Stylize");
   const auto steps = plan.workspaces.lend([&] { return steps_of(plan); });
-  const Targets targets = targets_of(plan, style);
+  const Targets targets = targets_of(plan, *steps, style);
 
   StylizeResult result;
   Positions positions = plan.elements.pairs.vertices;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "directions.h"
+#include "measures.h"
 #include "nearest.h"
 
 namespace swage {
@@ -74,18 +74,16 @@ class SphereTriangles {
   double inner_radius_ = 1;  // Of the ball within all triangles.
 };
 
-Positions of_nearest_points(const SphereMap& map, const Positions& normals) {
-  const Directions points(map.directions), styles(map.normals);
-  Positions result(normals.rows(), 3);
-#pragma omp parallel for schedule(static)
-  for (Index n = 0; n < normals.rows(); ++n) result.row(n) = styles[points.nearest(normals.row(n).transpose())];
-  return result;
+Positions of_nearest_points(const SphereMap& map, const Positions& normals, const Backend& backend) {
+  Eigen::VectorXi nearest;
+  backend.closest_normal(normalised(map.directions))->find(normals, nearest);
+  return normalised(map.normals)(nearest, Eigen::all);
 }
 
 }  // namespace
 
-Positions on_sphere(const SphereMap& map, const Positions& normals) {
-  if (map.nearest) return of_nearest_points(map, normals);
+Positions on_sphere(const SphereMap& map, const Positions& normals, const Backend& backend) {
+  if (map.nearest) return of_nearest_points(map, normals, backend);
   const SphereTriangles sphere(map);
   Positions result(normals.rows(), 3);
 #pragma omp parallel for schedule(static)

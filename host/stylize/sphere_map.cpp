@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "adjacency.h"
-#include "directions.h"
 #include "flat.h"
 #include "laplacian_system.h"
 #include "measures.h"

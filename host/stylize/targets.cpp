@@ -3,22 +3,19 @@
 #include <memory>
 #include <utility>
 
-#include "directions.h"
 #include "element_normals.h"
 #include "sphere.h"
 
 namespace swage {
 namespace {
 
-Targets to(const StylizePlan& plan, const ClosestNormals& style) {
-  const auto directions = std::make_shared<const Directions>(style.normals);
-  const auto find = [&plan, directions](const Positions& positions) {
-    Positions normals = element_normals(plan, positions);
-#pragma omp parallel for schedule(static)
-    for (Eigen::Index n = 0; n < normals.rows(); ++n) {
-      normals.row(n) = (*directions)[directions->nearest(normals.row(n).transpose())];
-    }
-    return normals;
+Targets to(const StylizePlan& plan, StylizeSteps&, const ClosestNormals& style) {
+  const Positions normals = normalised(style.normals);
+  const std::shared_ptr<ClosestNormalStep> step = plan.options.backend->closest_normal(normals);
+  const auto find = [&plan, normals, step](const Positions& positions) -> Positions {
+    Eigen::VectorXi closest;
+    step->find(element_normals(plan, positions), closest);
+    return normals(closest, Eigen::all);
   };
   return {find, style.dynamic};
 }
@@ -41,17 +38,19 @@ Positions of_elements(const StylizePlan& plan, const GivenNormals& style) {
   return normalised(std::move(normals));
 }
 
-Targets to(const StylizePlan& plan, const GivenNormals& style) {
+Targets to(const StylizePlan& plan, StylizeSteps&, const GivenNormals& style) {
   return {[&](const Positions&) { return of_elements(plan, style); }, false};
 }
 
-Targets to(const StylizePlan& plan, const SphereMap& style) {
-  return {[&](const Positions&) { return on_sphere(style, plan.elements.pairs.normals); }, false};
+Targets to(const StylizePlan& plan, StylizeSteps&, const SphereMap& style) {
+  return {[&](const Positions&) { return on_sphere(style, plan.elements.pairs.normals, *plan.options.backend); },
+          false};
 }
 
-Targets to(const StylizePlan& plan, const Developable& style) {
+Targets to(const StylizePlan& plan, StylizeSteps& steps, const Developable& style) {
+  if (!steps.normal_fit) steps.normal_fit = normal_fit_of(plan);
   const auto find = [&](const Positions& positions) {
-    const Positions of_triangles = developable_normals(plan, style, positions);
+    const Positions of_triangles = developable_normals(plan, *steps.normal_fit, style, positions);
     if (plan.of_triangles()) return of_triangles;
     const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
     return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));
@@ -61,8 +60,8 @@ Targets to(const StylizePlan& plan, const Developable& style) {
 
 }  // namespace
 
-Targets targets_of(const StylizePlan& plan, const Style& style) {
-  return std::visit([&](const auto& one) { return to(plan, one); }, style);
+Targets targets_of(const StylizePlan& plan, StylizeSteps& steps, const Style& style) {
+  return std::visit([&](const auto& one) { return to(plan, steps, one); }, style);
 }
 
 }  // namespace swage

@@ -141,4 +141,32 @@ class CurvatureStep {
   virtual void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) = 0;
 };
 
+/// Principal directions of the normals around each vertex (stylize.h; paper appendix E): of the second moment
+/// sum_t a_t n_t n_tᵀ about the origin, over the triangles t around, a_t their areas and n_t their unit normals.
+class NormalFitStep {
+ public:
+  struct Rest {
+    std::vector<int> offsets;    ///< #V + 1: triangles around v stand at offsets[v] .. offsets[v + 1].
+    std::vector<int> triangles;  ///< In [0, triangle_count).
+    int triangle_count = 0;
+  };
+
+  virtual ~NormalFitStep() = default;
+
+  /// `area_vectors`: #T × 3, a normal each, twice as long as the triangle's area; any unit, some may vanish. Gives
+  /// `directions`, #V × 9: three rows, unit and at right angles, in order of `spreads`, #V × 3: the eigenvalues,
+  /// ascending, in the unit of areas; 0 of vertices without triangles. Of equal spreads the directions are any.
+  virtual void fit(const Positions& area_vectors, Transforms& directions, Positions& spreads) = 0;
+};
+
+/// The closest of a style's normals (stylize.h: ClosestNormals, and sphere maps by the nearest point).
+class ClosestNormalStep {
+ public:
+  virtual ~ClosestNormalStep() = default;
+
+  /// `units`: #N × 3, of length 1. Gives #N numbers: whose of the style's normals is at the least angle, of several
+  /// equally near the first; 0 for a row of zeros.
+  virtual void find(const Positions& units, Eigen::VectorXi& closest) = 0;
+};
+
 }  // namespace swage
