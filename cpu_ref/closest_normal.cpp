@@ -1,5 +1,6 @@
 // The closest of a few normals by comparing all, of many by a k-d tree.
-#define NANOFLANN_FIRST_MATCH  // Of several equally near the first.
+#include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 #include <optional>
 
@@ -11,6 +12,23 @@ namespace {
 constexpr Eigen::Index kFew = 64;
 
 using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Positions, 3, nanoflann::metric_L2_Simple>;
+
+/// What a search finds: of several equally near the first.
+struct First {
+  Tree::IndexType number = 0;
+  double squared_distance = std::numeric_limits<double>::infinity();
+
+  // nanoflann's names. It asks for what is nearer than the worst.
+  bool addPoint(double squared, Tree::IndexType other) {
+    if (squared < squared_distance || (squared == squared_distance && other < number)) {
+      squared_distance = squared;
+      number = other;
+    }
+    return true;
+  }
+  double worstDist() const { return std::nextafter(squared_distance, std::numeric_limits<double>::infinity()); }
+  bool full() const { return std::isfinite(squared_distance); }
+};
 
 class CpuClosestNormal final : public ClosestNormalStep {
  public:
@@ -38,10 +56,9 @@ class CpuClosestNormal final : public ClosestNormalStep {
   }
 
   int by_tree(const Eigen::RowVector3d& unit) const {
-    Tree::IndexType best = 0;
-    double squared_distance = 0;
-    tree_->query(unit.data(), 1, &best, &squared_distance);
-    return static_cast<int>(best);
+    First first;
+    tree_->index->findNeighbors(first, unit.data(), nanoflann::SearchParams());
+    return static_cast<int>(first.number);
   }
 
   Positions normals_;

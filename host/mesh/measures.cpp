@@ -43,7 +43,11 @@ Positions normalised(Positions rows) {
 
 Positions unit_normals(const Positions& positions, const Triangles& triangles) {
   Positions normals = area_vectors(positions, triangles);
-  normals.rowwise().normalize();
+#pragma omp parallel for schedule(static) if (normals.rows() > kWorthThreads)
+  for (Eigen::Index t = 0; t < normals.rows(); ++t) {
+    const double length = normals.row(t).norm();
+    if (length > 0) normals.row(t) /= length;
+  }
   return normals;
 }
 

@@ -84,7 +84,7 @@ TYPED_TEST(PrincipalMath, IsEigensOfEverySpread) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   for (const Vector3d& spreads :
-       {Vector3d(0.2, 0.3, 0.5), Vector3d(0, 0, 1), Vector3d(0, 0.5, 0.5), Vector3d(1, 1, 1) / 3,
+       {Vector3d(0.2, 0.3, 0.5), Vector3d(0, 0, 1), Vector3d(0, 0.5, 0.5), Vector3d(1. / 3, 1. / 3, 1. / 3),
         Vector3d(1e-12, 1e-6, 1), Vector3d(0, 0, 0), Vector3d(0.25, 0.25, 0.5), Vector3d(1e-5, 1.001e-5, 1)}) {
     for (int i = 0; i < 200; ++i) {
       const Matrix3d turn = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))

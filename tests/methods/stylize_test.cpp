@@ -256,11 +256,15 @@ void expect_as_on_cpu(Precision precision, double tolerance) {
   for (const double size : {1e-2, 1.0, 1e2}) {
     const Mesh mesh = transformed(askew(torus(1, 0.4, 24, 12)), size, {0, 0, 0});
     for (const StylizeEnergy energy : kEnergies) {
-      StylizeOptions options = by(energy, 20);
-      const Positions host = stylize(mesh.positions, mesh.triangles, cube_normals(false), 1, options).positions;
-      options.backend = device;
-      const Positions there = stylize(mesh.positions, mesh.triangles, cube_normals(false), 1, options).positions;
-      EXPECT_LT(far_apart(host, there), tolerance) << to_string(energy) << " at " << size;
+      StylizeOptions options = by(energy);
+      for (const bool dynamic : {false, true}) {
+        options.backend = cpu_backend();
+        const ClosestNormals style = cube_normals(dynamic);
+        const Positions host = stylize(mesh.positions, mesh.triangles, style, 1, options).positions;
+        options.backend = device;
+        const Positions there = stylize(mesh.positions, mesh.triangles, style, 1, options).positions;
+        EXPECT_LT(far_apart(host, there), tolerance) << to_string(energy) << " at " << size << ", dynamic " << dynamic;
+      }
     }
   }
 }
