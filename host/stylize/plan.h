@@ -36,6 +36,12 @@ struct StylizeFit {
   Eigen::VectorXd scales;  ///< #N: s; 1 but for acap.
 };
 
+/// What a solve holds.
+struct StylizeHolds {
+  HeldPoints points;           ///< In the unit box.
+  std::vector<char> has_size;  ///< Of each component: whether it is held in two places or more.
+};
+
 struct StylizePlan {
   StylizeOptions options;
   std::optional<Given> given;  ///< Where what follows is not as given.
@@ -71,16 +77,16 @@ std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options);
 bool prepare(StylizePlan& plan, const ProgressFn& progress);
 
 // hold.cpp
-/// The handles, and of components without any their anchors. In the unit box.
-HeldPoints points_held(const StylizePlan& plan, const Gesture& handles);
+/// The handles, and of components without any their anchors.
+StylizeHolds holds_for(const StylizePlan& plan, const Gesture& handles);
 
 // fit.cpp
 std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan);
 std::unique_ptr<NormalFitStep> normal_fit_of(const StylizePlan& plan);
 StylizeFit unmoved(Eigen::Index element_count);
 /// The local step, from what it found before.
-void fit(const StylizePlan& plan, StylizeSteps& steps, const Positions& positions, const Positions& targets,
-         double lambda, StylizeFit& fitted);
+void fit(const StylizePlan& plan, StylizeSteps& steps, const StylizeHolds& holds, const Positions& positions,
+         const Positions& targets, double lambda, StylizeFit& fitted);
 
 // energy.cpp
 /// In the unit box.

@@ -53,7 +53,7 @@ void make(StylizePlan& plan, const ProgressFn& progress) {
   preparation.begin("system", 0.3);
   plan.system = LaplacianSystem(plan.elements.pairs);
   preparation.begin("factor", 0.5);
-  held_laplacian(plan.last_held, plan.system, points_held(plan, {}), plan.given, "Stylize");
+  held_laplacian(plan.last_held, plan.system, holds_for(plan, {}).points, plan.given, "Stylize");
 }
 
 }  // namespace

@@ -53,9 +53,9 @@ StylizeResult cancelled(const StylizePlan& plan) {
 
 StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambda, const Gesture& handles,
                              const ProgressFn& progress) {
-  const HeldPoints points = points_held(plan, handles);
+  const StylizeHolds holds = holds_for(plan, handles);
   const std::shared_ptr<const HeldLaplacian> held =
-      held_laplacian(plan.last_held, plan.system, points, plan.given, "Stylize");
+      held_laplacian(plan.last_held, plan.system, holds.points, plan.given, "Stylize");
   const auto steps = plan.workspaces.lend([&] { return steps_of(plan); });
   const Targets targets = targets_of(plan, *steps, style);
 
@@ -63,11 +63,11 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   Positions positions = plan.elements.pairs.vertices;
   Positions target_normals = targets.find(positions);
   StylizeFit fitted = unmoved(plan.system.element_count());
-  fit(plan, *steps, positions, target_normals, lambda, fitted);
+  fit(plan, *steps, holds, positions, target_normals, lambda, fitted);
 
   Alternation passes;
   passes.place = [&](Positions& placed, const Poll&) {
-    placed = held->solve(plan.system.right_hand_sides(fitted.matrices), points);
+    placed = held->solve(plan.system.right_hand_sides(fitted.matrices), holds.points);
     StylizeTerms terms = energy(plan, placed, target_normals, fitted);
     terms.shape *= plan.box.extent * plan.box.extent;
     terms.normals *= plan.box.extent * plan.box.extent;
@@ -77,7 +77,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   passes.moved_little = [&](const Positions& start, const Positions& end) { return moved_little(plan, start, end); };
   passes.fit = [&](const Positions& placed, const Poll&) {
     if (targets.dynamic) target_normals = targets.find(placed);
-    fit(plan, *steps, placed, target_normals, lambda, fitted);
+    fit(plan, *steps, holds, placed, target_normals, lambda, fitted);
   };
   result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
 

@@ -18,7 +18,8 @@ namespace swage {
 enum class StylizeEnergy {
   arap,   ///< Each vertex's triangles keep their shape up to a rotation: smooth, details kept (eq. 3).
   farap,  ///< Each triangle does, and bends freely against the next: sharp creases (eq. 4).
-  acap,   ///< As arap, up to a rotation and a scale: details may grow and shrink (eq. 5).
+  acap,   ///< As arap, up to a rotation and a scale: details may grow and shrink (eq. 5). A component that is not held
+          ///< in two places keeps its area.
 };
 
 /// "arap", "farap", "acap".
@@ -26,7 +27,7 @@ const char* to_string(StylizeEnergy energy);
 
 /// How acap finds a neighbourhood's scale s.
 enum class AcapScale {
-  exact,  ///< The one of least energy.
+  exact,  ///< The one of least energy, of those that keep the area.
   paper,  ///< By the formula of appendix C, which counts the normals' term. The energy may rise.
 };
 
