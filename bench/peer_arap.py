@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 """A pass of ARAP by other libraries beside a pass of stylizing, on the same meshes, by turns.
 
-  bench/peer_arap.py STYLIZE_BENCH [--benchmark_filter=REGEX]
+  bench/peer_arap.py STYLIZE_BENCH [--into RAW.json] [--benchmark_filter=REGEX]
 
 STYLIZE_BENCH is the program of bench/stylize_bench.cpp: its pass does the local step with a normal each, the global
 step, looks targets up again and computes both energies. libigl's (Python's igl) has the same neighbourhoods, spokes and
 rims, Open3D's spokes alone; neither has normals, targets or energies. A pass is what ten passes more take, the median of
-five. Libraries that are not installed are left out. Other arguments are Google Benchmark's and pass unheeded.
+five. Libraries that are not installed are left out. --into adds the times to results of STYLIZE_BENCH. Other arguments are Google Benchmark's and pass unheeded.
 """
 
 import argparse
 import importlib.util
 import json
+import pathlib
 import re
 import statistics
 import subprocess
@@ -87,8 +88,10 @@ def our_pass(program, vertices):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", metavar="STYLIZE_BENCH")
+    parser.add_argument("--into", metavar="RAW.json")
     parser.add_argument("--benchmark_filter", default="", metavar="REGEX")
     arguments = parser.parse_known_args()[0]
+    runs = []
     peers = {"igl": igl_passes, "open3d": open3d_passes}
     for library, passes_of in peers.items():
         if not importlib.util.find_spec(library):
@@ -100,7 +103,13 @@ def main():
             run = passes_of(*torus(vertices))
             pairs = [(of_a_pass(run), our_pass(arguments.program, vertices)) for _ in range(REPETITIONS)]
             theirs, ours = (1e3 * statistics.median(times) for times in zip(*pairs))
+            runs.append({"name": name, "real_time": PASSES * theirs, "ours": PASSES * ours, "time_unit": "ms"})
             print(f"{name:32} {theirs:9.2f} ms, ours {ours:9.2f} ms: {theirs / ours:.1f} times as long")
+    if arguments.into:
+        path = pathlib.Path(arguments.into)
+        results = json.loads(path.read_text(encoding="utf-8"))
+        results["benchmarks"] += runs
+        path.write_text(json.dumps(results), encoding="utf-8")
 
 
 if __name__ == "__main__":
