@@ -1,5 +1,6 @@
 // The closest of a few normals by comparing all, of many by a k-d tree.
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <nanoflann.hpp>
 #include <optional>
@@ -11,15 +12,27 @@ namespace {
 
 constexpr Eigen::Index kFew = 64;
 
-using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Positions, 3, nanoflann::metric_L2_Simple>;
+/// Normals as nanoflann asks for them, by its names.
+struct Points {
+  Positions rows;
+
+  size_t kdtree_get_point_count() const { return static_cast<size_t>(rows.rows()); }
+  double kdtree_get_pt(int i, size_t axis) const { return rows(i, static_cast<Eigen::Index>(axis)); }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, int>;
 
 /// What a search finds: of several equally near the first.
 struct First {
-  Tree::IndexType number = 0;
+  int number = 0;
   double squared_distance = std::numeric_limits<double>::infinity();
 
-  // nanoflann's names. It asks for what is nearer than the worst.
-  bool addPoint(double squared, Tree::IndexType other) {
+  // NOLINTBEGIN(readability-identifier-naming): nanoflann's names. It asks for what is nearer than the worst.
+  bool addPoint(double squared, int other) {
     if (squared < squared_distance || (squared == squared_distance && other < number)) {
       squared_distance = squared;
       number = other;
@@ -28,12 +41,13 @@ struct First {
   }
   double worstDist() const { return std::nextafter(squared_distance, std::numeric_limits<double>::infinity()); }
   bool full() const { return std::isfinite(squared_distance); }
+  // NOLINTEND(readability-identifier-naming)
 };
 
 class CpuClosestNormal final : public ClosestNormalStep {
  public:
-  explicit CpuClosestNormal(const Positions& normals) : normals_(normals) {
-    if (normals_.rows() > kFew) tree_.emplace(3, std::cref(normals_));
+  explicit CpuClosestNormal(const Positions& normals) : normals_{normals} {
+    if (normals.rows() > kFew) tree_.emplace(3, normals_);
   }
 
   void find(const Positions& units, Eigen::VectorXi& closest) override {
@@ -51,17 +65,17 @@ class CpuClosestNormal final : public ClosestNormalStep {
  private:
   int of_few(const Eigen::RowVector3d& unit) const {
     Eigen::Index best = 0;
-    (normals_ * unit.transpose()).maxCoeff(&best);
+    (normals_.rows * unit.transpose()).maxCoeff(&best);
     return static_cast<int>(best);
   }
 
   int by_tree(const Eigen::RowVector3d& unit) const {
     First first;
-    tree_->index->findNeighbors(first, unit.data(), nanoflann::SearchParams());
-    return static_cast<int>(first.number);
+    tree_->findNeighbors(first, unit.data(), nanoflann::SearchParams());
+    return first.number;
   }
 
-  Positions normals_;
+  Points normals_;
   std::optional<Tree> tree_;
 };
 

@@ -17,7 +17,7 @@ Elements elements_of(const StylizePlan& plan, const Mesh& unit_mesh, const std::
 
 /// Barycentric areas, a third of the triangles around, of vertices.
 Eigen::VectorXd areas_of_elements(const StylizePlan& plan, const Mesh& unit_mesh) {
-  const Eigen::VectorXd areas = area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm() / 2;
+  Eigen::VectorXd areas = area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm() / 2;
   if (plan.of_triangles()) return areas;
   Eigen::VectorXd result = Eigen::VectorXd::Zero(unit_mesh.positions.rows());
   for (int v = 0; v < result.size(); ++v) {

@@ -50,7 +50,7 @@ Targets to(const StylizePlan& plan, StylizeSteps&, const SphereMap& style) {
 Targets to(const StylizePlan& plan, StylizeSteps& steps, const Developable& style) {
   if (!steps.normal_fit) steps.normal_fit = normal_fit_of(plan);
   const auto find = [&](const Positions& positions) {
-    const Positions of_triangles = developable_normals(plan, *steps.normal_fit, style, positions);
+    Positions of_triangles = developable_normals(plan, *steps.normal_fit, style, positions);
     if (plan.of_triangles()) return of_triangles;
     const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
     return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));
