@@ -63,13 +63,19 @@ struct StylizePlan {
 // check.cpp
 void check_options(const StylizeOptions& options);
 void check_style(const StylizePlan& plan, const Style& style, double lambda);
+void check_closest(const char* caller, const ClosestNormals& style);
 
 // prepare.cpp
-std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options);
+/// Errors name the caller.
+std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options, const char* caller = "Stylize");
 /// Once. False where `progress` cancelled: another call begins anew.
 bool prepare(StylizePlan& plan, const ProgressFn& progress);
+/// Takes positions in the unit box for those at rest. Nobody else may use the plan.
+void renew(StylizePlan& plan, const Positions& positions);
 
 // hold.cpp
+/// Of each component whether it has a handle.
+std::vector<char> held_components(const StylizePlan& plan, const Gesture& handles);
 /// The handles, and of components without any their anchors. In the unit box.
 HeldPoints points_held(const StylizePlan& plan, const Gesture& handles);
 

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "alternate.h"
+#include "anderson.h"
 #include "plan.h"
 #include "targets.h"
 #include "warnings.h"
@@ -64,20 +65,45 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   Positions target_normals = targets.find(positions);
   StylizeFit fitted = unmoved(plan.system.element_count());
   fit(plan, *steps, positions, target_normals, lambda, fitted);
+  bool fits = false;  // Whether targets and matrices are of the next start.
+  const auto fit_to = [&](const Positions& placed) {
+    if (targets.dynamic) target_normals = targets.find(placed);
+    fit(plan, *steps, placed, target_normals, lambda, fitted);
+    fits = true;
+  };
+  const auto terms_at = [&](const Positions& placed) {
+    StylizeTerms terms = energy(plan, placed, target_normals, fitted);
+    terms.shape *= plan.box.extent * plan.box.extent;
+    terms.normals *= plan.box.extent * plan.box.extent;
+    return terms;
+  };
+  const auto sum = [&](const StylizeTerms& terms) { return terms.shape + lambda * terms.normals; };
+  Anderson acceleration(plan.options.acceleration_window);
 
   Alternation passes;
   passes.place = [&](Positions& placed, const Poll&) {
     placed = held->solve(plan.system.right_hand_sides(fitted.matrices), points);
-    StylizeTerms terms = energy(plan, placed, target_normals, fitted);
-    terms.shape *= plan.box.extent * plan.box.extent;
-    terms.normals *= plan.box.extent * plan.box.extent;
-    result.passes.push_back(terms);
-    return terms.shape + lambda * terms.normals;
+    fits = false;
+    result.passes.push_back(terms_at(placed));
+    return sum(result.passes.back());
   };
   passes.moved_little = [&](const Positions& start, const Positions& end) { return moved_little(plan, start, end); };
+  if (plan.options.acceleration_window > 0) {
+    // As Deform's.
+    passes.next = [&](const Positions& start, const Positions& end, const Poll&) {
+      const Positions next = acceleration.next(start, end);
+      if (next == end) return next;
+      const StylizeFit before = fitted;
+      fit_to(next);
+      if (sum(terms_at(next)) <= sum(result.passes.back())) return next;
+      acceleration = Anderson(plan.options.acceleration_window);
+      fitted = before;
+      fits = false;
+      return end;
+    };
+  }
   passes.fit = [&](const Positions& placed, const Poll&) {
-    if (targets.dynamic) target_normals = targets.find(placed);
-    fit(plan, *steps, placed, target_normals, lambda, fitted);
+    if (!fits) fit_to(placed);
   };
   result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
 

@@ -12,6 +12,7 @@
 #include "measures.h"
 #include "opencl_device.h"
 #include "shapes.h"
+#include "stylized.h"
 #include "swage/error.h"
 #include "swage/stylize.h"
 
@@ -32,47 +33,6 @@ StylizeOptions by(StylizeEnergy energy, int pass_limit = 350) {
   options.energy = energy;
   options.pass_limit = pass_limit;
   return options;
-}
-
-ClosestNormals cube_normals(bool dynamic = true) {
-  ClosestNormals style = closest_normals(style_shape(StyleShape::cube));
-  style.dynamic = dynamic;
-  return style;
-}
-
-/// Of the positions, about no axis of the cube: no two of its normals are as near.
-Mesh askew(Mesh mesh) {
-  mesh.positions = mesh.positions * AngleAxisd(0.7, Vector3d(1, 0.4, 0.3).normalized()).toRotationMatrix();
-  return mesh;
-}
-
-double far_apart(const Positions& one, const Positions& other) {
-  return (one - other).rowwise().norm().maxCoeff() / box_diagonal(one);
-}
-
-/// Degrees between triangles and the nearest of the normals, mean by area.
-double mean_angle(const Mesh& mesh, const Positions& positions, const Positions& normals) {
-  const Positions areas = area_vectors(positions, mesh.triangles), units = unit_normals(positions, mesh.triangles);
-  double sum = 0, all = 0;
-  for (Eigen::Index t = 0; t < areas.rows(); ++t) {
-    const double cosine = std::min(1.0, (normals * units.row(t).transpose()).maxCoeff());
-    sum += areas.row(t).norm() * std::acos(cosine) * 180 / std::numbers::pi;
-    all += areas.row(t).norm();
-  }
-  return sum / all;
-}
-
-/// Share of inner vertices whose angles sum to 2 pi.
-double flat_share(const Mesh& mesh, const Positions& positions) {
-  Eigen::VectorXd defects = Eigen::VectorXd::Constant(positions.rows(), 2 * std::numbers::pi);
-  for (const auto& t : mesh.triangles.rowwise()) {
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d a = (positions.row(t[(k + 1) % 3]) - positions.row(t[k])).transpose();
-      const Vector3d b = (positions.row(t[(k + 2) % 3]) - positions.row(t[k])).transpose();
-      defects[t[k]] -= std::atan2(a.cross(b).norm(), a.dot(b));
-    }
-  }
-  return static_cast<double>((defects.array().abs() < 1e-3).count()) / static_cast<double>(positions.rows());
 }
 
 struct Shape {
