@@ -3,6 +3,7 @@
 
 #include "alternate.h"
 #include "anderson.h"
+#include "keep_size.h"
 #include "plan.h"
 #include "targets.h"
 #include "warnings.h"
@@ -64,13 +65,15 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   Positions positions = plan.elements.pairs.vertices;
   Positions target_normals = targets.find(positions);
   StylizeFit fitted = unmoved(plan.system.element_count());
-  fit(plan, *steps, positions, target_normals, lambda, fitted);
-  bool fits = false;  // Whether targets and matrices are of the next start.
+  std::optional<KeepSize> keep_size;
+  if (steps->similarity) keep_size.emplace(plan, points);
+  bool fits = false;  // Whether matrices are of the next start.
   const auto fit_to = [&](const Positions& placed) {
-    if (targets.dynamic) target_normals = targets.find(placed);
     fit(plan, *steps, placed, target_normals, lambda, fitted);
+    if (keep_size) keep_size->of(plan, fitted);
     fits = true;
   };
+  fit_to(positions);
   const auto terms_at = [&](const Positions& placed) {
     StylizeTerms terms = energy(plan, placed, target_normals, fitted);
     terms.shape *= plan.box.extent * plan.box.extent;
@@ -94,6 +97,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
       const Positions next = acceleration.next(start, end);
       if (next == end) return next;
       const StylizeFit before = fitted;
+      if (targets.dynamic) target_normals = targets.find(next);
       fit_to(next);
       if (sum(terms_at(next)) <= sum(result.passes.back())) return next;
       acceleration = Anderson(plan.options.acceleration_window);
@@ -103,7 +107,9 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
     };
   }
   passes.fit = [&](const Positions& placed, const Poll&) {
-    if (!fits) fit_to(placed);
+    if (fits) return;
+    if (targets.dynamic) target_normals = targets.find(placed);
+    fit_to(placed);
   };
   result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
 

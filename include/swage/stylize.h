@@ -18,7 +18,7 @@ namespace swage {
 enum class StylizeEnergy {
   arap,   ///< Each vertex's triangles keep their shape up to a rotation: smooth, details kept (eq. 3).
   farap,  ///< Each triangle does, and bends freely against the next: sharp creases (eq. 4).
-  acap,   ///< As arap, up to a rotation and a scale: details may grow and shrink (eq. 5).
+  acap,   ///< As arap, up to a rotation and a scale: details may grow and shrink (eq. 5), but not all together.
 };
 
 /// "arap", "farap", "acap".
@@ -26,7 +26,8 @@ const char* to_string(StylizeEnergy energy);
 
 /// How acap finds a neighbourhood's scale s.
 enum class AcapScale {
-  exact,  ///< The one of least energy.
+  exact,  ///< The one of least energy, with a mean square over each component of 1, or where handles at several places
+          ///< give the size, of what they draw together to at least: all would shrink to a point else.
   paper,  ///< By the formula of appendix C, which counts the normals' term. The energy may rise.
 };
 
