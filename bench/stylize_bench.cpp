@@ -87,13 +87,12 @@ void local_step(benchmark::State& state, StylizeEnergy energy, const Choice& cho
   const std::unique_ptr<StylizeSteps> steps = steps_of(*plan);
   const Positions moved = (2 * plan->elements.pairs.vertices).array().sin();
   StylizeFit fitted = unmoved(plan->system.element_count());
-  const StylizeHolds holds = holds_for(*plan, {});
-  for (auto _ : state) fit(*plan, *steps, holds, moved, plan->elements.pairs.normals, 1, fitted);
+  for (auto _ : state) fit(*plan, *steps, moved, plan->elements.pairs.normals, 1, fitted);
 }
 
 void global_step(benchmark::State& state, StylizeEnergy energy, const Choice& choice) {
   const std::unique_ptr<StylizePlan> plan = prepared(state, energy, choice);
-  const HeldPoints points = holds_for(*plan, {}).points;
+  const HeldPoints points = points_held(*plan, {});
   const HeldLaplacian held(plan->system, points);
   const Transforms rotations = identities(plan->system.element_count());
   for (auto _ : state) {

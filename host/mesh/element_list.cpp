@@ -6,7 +6,9 @@
 
 namespace swage {
 
-void ElementList::add(int i, int j, double weight) { open_.push_back({std::min(i, j), std::max(i, j), weight}); }
+void ElementList::add(int i, int j, double weight) {
+  if (i != j) open_.push_back({std::min(i, j), std::max(i, j), weight});
+}
 
 void ElementList::close() {
   std::sort(open_.begin(), open_.end(),

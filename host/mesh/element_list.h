@@ -24,7 +24,7 @@ class ElementList {
  public:
   explicit ElementList(Eigen::Index vertex_count) : of_vertex_(static_cast<size_t>(vertex_count), -1) {}
 
-  /// An edge of the element that is open.
+  /// An edge of the element that is open. From a vertex to itself there is none.
   void add(int i, int j, double weight);
   void close();
 

@@ -36,8 +36,11 @@ Elements triangle_elements(const Mesh& mesh, const Positions& weights) {
 }
 
 Elements vertex_elements(const Mesh& mesh, const std::vector<char>& is_flat) {
+  return vertex_elements(mesh, half_cotangents(mesh.positions, mesh.triangles, is_flat));
+}
+
+Elements vertex_elements(const Mesh& mesh, const Positions& weights) {
   const auto count = static_cast<int>(mesh.positions.rows());
-  const Positions weights = half_cotangents(mesh.positions, mesh.triangles, is_flat);
   const Lists around = triangles_of_vertices(mesh.triangles, count);
   ElementList list(count);
   for (int v = 0; v < count; ++v) {

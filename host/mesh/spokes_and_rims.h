@@ -17,7 +17,9 @@ Positions half_cotangents(const Positions& positions, const Triangles& triangles
 /// A triangle's three sides, of the weights of its row: #T × 3, or one row for all.
 Elements triangle_elements(const Mesh& mesh, const Positions& weights);
 
-/// Of each vertex the sides of its triangles, its own and those opposite, by their cotangents.
+/// Of each vertex the sides of its triangles, its own and those opposite, of the triangles' weights, #T × 3.
+Elements vertex_elements(const Mesh& mesh, const Positions& weights);
+/// By their cotangents.
 Elements vertex_elements(const Mesh& mesh, const std::vector<char>& is_flat);
 
 /// Adds the sides of triangles around a vertex.

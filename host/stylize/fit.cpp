@@ -15,27 +15,6 @@ constexpr double kSmallest = 1e-6;
 
 bool has_scale(const StylizePlan& plan) { return plan.options.energy == StylizeEnergy::acap; }
 
-/// Scales all of a component that no handles give a size so that sum a s² = sum a, a the areas. Of scales with that sum
-/// those that are found alone, times what makes it, are the best: sum w |e|² around a vertex is 6 a. Without it the
-/// whole shrinks to a point, which has no energy of shape and meets any normals.
-void keep_area(const StylizePlan& plan, const StylizeHolds& holds, StylizeFit& fitted) {
-  const Eigen::VectorXd& areas = plan.elements.pairs.normal_weights;
-  const auto component_of = [&](Eigen::Index v) { return plan.component[static_cast<size_t>(v)]; };
-  const auto count = static_cast<Eigen::Index>(holds.has_size.size());
-  Eigen::VectorXd rest = Eigen::VectorXd::Zero(count), now = rest;
-  for (Eigen::Index v = 0; v < areas.size(); ++v) {
-    rest[component_of(v)] += areas[v];
-    now[component_of(v)] += areas[v] * fitted.scales[v] * fitted.scales[v];
-  }
-  for (Eigen::Index v = 0; v < areas.size(); ++v) {
-    const int c = component_of(v);
-    if (holds.has_size[static_cast<size_t>(c)] != 0 || !(now[c] > 0)) continue;
-    const double factor = std::sqrt(rest[c] / now[c]);
-    fitted.scales[v] *= factor;
-    fitted.matrices.row(v) *= factor;
-  }
-}
-
 /// The formula of appendix C as the authors' program has it: n unrotated above, and |n|² for n · t below.
 void scale_as_paper(const StylizePlan& plan, const Positions& positions, const Positions& targets, double lambda,
                     StylizeFit& fitted) {
@@ -86,8 +65,8 @@ StylizeFit unmoved(Eigen::Index element_count) {
   return {identities(element_count), Eigen::VectorXd::Ones(element_count)};
 }
 
-void fit(const StylizePlan& plan, StylizeSteps& steps, const StylizeHolds& holds, const Positions& positions,
-         const Positions& targets, double lambda, StylizeFit& fitted) {
+void fit(const StylizePlan& plan, StylizeSteps& steps, const Positions& positions, const Positions& targets,
+         double lambda, StylizeFit& fitted) {
   // A target's length multiplies its weight (steps.h): nothing prepared depends on lambda. Of s R the rotation that is
   // best for the scale before has s times the edges' part, so that the energy falls in it and then in the scale.
   Positions weighted = lambda * targets;
@@ -95,7 +74,6 @@ void fit(const StylizePlan& plan, StylizeSteps& steps, const StylizeHolds& holds
     weighted.array().colwise() /= fitted.scales.array().max(kSmallest);
     steps.similarity->fit(positions, weighted, fitted.matrices);
     fitted.scales = fitted.matrices.leftCols(3).rowwise().norm();
-    keep_area(plan, holds, fitted);
     return;
   }
   steps.rotation->fit(positions, weighted, fitted.matrices);

@@ -27,19 +27,12 @@ namespace swage {
 struct StylizeSteps {
   std::unique_ptr<RotationStep> rotation;
   std::unique_ptr<SimilarityStep> similarity;  ///< In its place, of acap with exact scales.
-  std::unique_ptr<NormalFitStep> normal_fit;   ///< Once a style is developable.
 };
 
 /// What the local step finds.
 struct StylizeFit {
   Transforms matrices;     ///< #N × 9: s R
   Eigen::VectorXd scales;  ///< #N: s; 1 but for acap.
-};
-
-/// What a solve holds.
-struct StylizeHolds {
-  HeldPoints points;           ///< In the unit box.
-  std::vector<char> has_size;  ///< Of each component: whether it is held in two places or more.
 };
 
 struct StylizePlan {
@@ -70,23 +63,29 @@ struct StylizePlan {
 // check.cpp
 void check_options(const StylizeOptions& options);
 void check_style(const StylizePlan& plan, const Style& style, double lambda);
+void check_closest(const char* caller, const ClosestNormals& style);
 
 // prepare.cpp
-std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options);
+/// Errors name the caller.
+std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options, const char* caller = "Stylize");
 /// Once. False where `progress` cancelled: another call begins anew.
 bool prepare(StylizePlan& plan, const ProgressFn& progress);
+/// Takes positions in the unit box for those at rest. Nobody else may use the plan.
+void renew(StylizePlan& plan, const Positions& positions);
 
 // hold.cpp
-/// The handles, and of components without any their anchors.
-StylizeHolds holds_for(const StylizePlan& plan, const Gesture& handles);
+/// Of each component whether it has a handle.
+std::vector<char> held_components(const StylizePlan& plan, const Gesture& handles);
+/// The handles, and of components without any their anchors. In the unit box.
+HeldPoints points_held(const StylizePlan& plan, const Gesture& handles);
 
 // fit.cpp
 std::unique_ptr<StylizeSteps> steps_of(const StylizePlan& plan);
 std::unique_ptr<NormalFitStep> normal_fit_of(const StylizePlan& plan);
 StylizeFit unmoved(Eigen::Index element_count);
 /// The local step, from what it found before.
-void fit(const StylizePlan& plan, StylizeSteps& steps, const StylizeHolds& holds, const Positions& positions,
-         const Positions& targets, double lambda, StylizeFit& fitted);
+void fit(const StylizePlan& plan, StylizeSteps& steps, const Positions& positions, const Positions& targets,
+         double lambda, StylizeFit& fitted);
 
 // energy.cpp
 /// In the unit box.

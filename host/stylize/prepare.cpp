@@ -4,6 +4,7 @@
 
 #include "element_normals.h"
 #include "flat.h"
+#include "intrinsic_delaunay.h"
 #include "plan.h"
 #include "spokes_and_rims.h"
 
@@ -11,8 +12,13 @@ namespace swage {
 namespace {
 
 Elements elements_of(const StylizePlan& plan, const Mesh& unit_mesh, const std::vector<char>& is_flat) {
-  if (!plan.of_triangles()) return vertex_elements(unit_mesh, is_flat);
-  return triangle_elements(unit_mesh, half_cotangents(unit_mesh.positions, unit_mesh.triangles, is_flat));
+  if (plan.options.weights == StylizeWeights::intrinsic_delaunay) {
+    const auto [triangles, lengths] = intrinsic_delaunay(unit_mesh, plan.edges, is_flat);
+    return vertex_elements({unit_mesh.positions, triangles}, half_cotangents(lengths, is_flat));
+  }
+  Positions weights = half_cotangents(unit_mesh.positions, unit_mesh.triangles, is_flat);
+  if (plan.options.weights == StylizeWeights::clamped) weights = weights.cwiseMax(0);
+  return plan.of_triangles() ? triangle_elements(unit_mesh, weights) : vertex_elements(unit_mesh, weights);
 }
 
 /// Barycentric areas, a third of the triangles around, of vertices.
@@ -36,30 +42,34 @@ std::vector<int> anchors_of(const Mesh& mesh, const std::vector<int>& component)
   return anchors;
 }
 
+void find_elements(StylizePlan& plan, const Mesh& unit_mesh) {
+  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
+  plan.elements = elements_of(plan, unit_mesh, is_flat);
+  plan.elements.pairs.normals = element_normals(plan, unit_mesh.positions);
+  plan.elements.pairs.normal_weights = areas_of_elements(plan, unit_mesh);
+}
+
 void make(StylizePlan& plan, const ProgressFn& progress) {
   Preparation preparation(progress, plan.options.pass_limit);
   const Stopwatch watch(plan.prepare_seconds);
   const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
   const auto vertex_count = static_cast<int>(unit_mesh.positions.rows());
-  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
-  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
   plan.component = components(unit_mesh.triangles, vertex_count);
   plan.anchors = anchors_of(unit_mesh, plan.component);
   plan.triangles_around = triangles_of_vertices(unit_mesh.triangles, vertex_count);
   preparation.begin("elements", 0);
-  plan.elements = elements_of(plan, unit_mesh, is_flat);
-  plan.elements.pairs.normals = element_normals(plan, unit_mesh.positions);
-  plan.elements.pairs.normal_weights = areas_of_elements(plan, unit_mesh);
+  find_elements(plan, unit_mesh);
   preparation.begin("system", 0.3);
   plan.system = LaplacianSystem(plan.elements.pairs);
   preparation.begin("factor", 0.5);
-  held_laplacian(plan.last_held, plan.system, holds_for(plan, {}).points, plan.given, "Stylize");
+  held_laplacian(plan.last_held, plan.system, points_held(plan, {}), plan.given, "Stylize");
 }
 
 }  // namespace
 
-std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options) {
-  Surface surface = surface_given(mesh, "Stylize");
+std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options, const char* caller) {
+  Surface surface = surface_given(mesh, caller);
   const SurfaceCounts counts = surface.counts;
   std::optional<Given> given;
   if (!surface.is_as_given()) given.emplace(std::move(mesh), surface, false);
@@ -72,6 +82,11 @@ std::unique_ptr<StylizePlan> plan_of(Mesh mesh, const StylizeOptions& options) {
 
 bool prepare(StylizePlan& plan, const ProgressFn& progress) {
   return prepare_once(plan, [&](StylizePlan& unprepared) { make(unprepared, progress); });
+}
+
+void renew(StylizePlan& plan, const Positions& positions) {
+  find_elements(plan, {positions, plan.mesh.triangles});
+  plan.system = LaplacianSystem(plan.elements.pairs);
 }
 
 }  // namespace swage

@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "alternate.h"
+#include "anderson.h"
+#include "keep_size.h"
 #include "plan.h"
 #include "targets.h"
 #include "warnings.h"
@@ -53,31 +55,61 @@ StylizeResult cancelled(const StylizePlan& plan) {
 
 StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambda, const Gesture& handles,
                              const ProgressFn& progress) {
-  const StylizeHolds holds = holds_for(plan, handles);
+  const HeldPoints points = points_held(plan, handles);
   const std::shared_ptr<const HeldLaplacian> held =
-      held_laplacian(plan.last_held, plan.system, holds.points, plan.given, "Stylize");
+      held_laplacian(plan.last_held, plan.system, points, plan.given, "Stylize");
   const auto steps = plan.workspaces.lend([&] { return steps_of(plan); });
-  const Targets targets = targets_of(plan, *steps, style);
+  const Targets targets = targets_of(plan, style);
 
   StylizeResult result;
   Positions positions = plan.elements.pairs.vertices;
   Positions target_normals = targets.find(positions);
   StylizeFit fitted = unmoved(plan.system.element_count());
-  fit(plan, *steps, holds, positions, target_normals, lambda, fitted);
-
-  Alternation passes;
-  passes.place = [&](Positions& placed, const Poll&) {
-    placed = held->solve(plan.system.right_hand_sides(fitted.matrices), holds.points);
+  std::optional<KeepSize> keep_size;
+  if (steps->similarity) keep_size.emplace(plan, points);
+  bool fits = false;  // Whether matrices are of the next start.
+  const auto fit_to = [&](const Positions& placed) {
+    fit(plan, *steps, placed, target_normals, lambda, fitted);
+    if (keep_size) keep_size->of(plan, fitted);
+    fits = true;
+  };
+  fit_to(positions);
+  const auto terms_at = [&](const Positions& placed) {
     StylizeTerms terms = energy(plan, placed, target_normals, fitted);
     terms.shape *= plan.box.extent * plan.box.extent;
     terms.normals *= plan.box.extent * plan.box.extent;
-    result.passes.push_back(terms);
-    return terms.shape + lambda * terms.normals;
+    return terms;
+  };
+  const auto sum = [&](const StylizeTerms& terms) { return terms.shape + lambda * terms.normals; };
+  Anderson acceleration(plan.options.acceleration_window);
+
+  Alternation passes;
+  passes.place = [&](Positions& placed, const Poll&) {
+    placed = held->solve(plan.system.right_hand_sides(fitted.matrices), points);
+    fits = false;
+    result.passes.push_back(terms_at(placed));
+    return sum(result.passes.back());
   };
   passes.moved_little = [&](const Positions& start, const Positions& end) { return moved_little(plan, start, end); };
+  if (plan.options.acceleration_window > 0) {
+    // As Deform's.
+    passes.next = [&](const Positions& start, const Positions& end, const Poll&) {
+      const Positions next = acceleration.next(start, end);
+      if (next == end) return next;
+      const StylizeFit before = fitted;
+      if (targets.dynamic) target_normals = targets.find(next);
+      fit_to(next);
+      if (sum(terms_at(next)) <= sum(result.passes.back())) return next;
+      acceleration = Anderson(plan.options.acceleration_window);
+      fitted = before;
+      fits = false;
+      return end;
+    };
+  }
   passes.fit = [&](const Positions& placed, const Poll&) {
+    if (fits) return;
     if (targets.dynamic) target_normals = targets.find(placed);
-    fit(plan, *steps, holds, placed, target_normals, lambda, fitted);
+    fit_to(placed);
   };
   result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
 

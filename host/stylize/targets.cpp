@@ -9,7 +9,7 @@
 namespace swage {
 namespace {
 
-Targets to(const StylizePlan& plan, StylizeSteps&, const ClosestNormals& style) {
+Targets to(const StylizePlan& plan, const ClosestNormals& style) {
   const Positions normals = normalised(style.normals);
   const std::shared_ptr<ClosestNormalStep> step = plan.options.backend->closest_normal(normals);
   const auto find = [&plan, normals, step](const Positions& positions) -> Positions {
@@ -38,19 +38,19 @@ Positions of_elements(const StylizePlan& plan, const GivenNormals& style) {
   return normalised(std::move(normals));
 }
 
-Targets to(const StylizePlan& plan, StylizeSteps&, const GivenNormals& style) {
+Targets to(const StylizePlan& plan, const GivenNormals& style) {
   return {[&](const Positions&) { return of_elements(plan, style); }, false};
 }
 
-Targets to(const StylizePlan& plan, StylizeSteps&, const SphereMap& style) {
+Targets to(const StylizePlan& plan, const SphereMap& style) {
   return {[&](const Positions&) { return on_sphere(style, plan.elements.pairs.normals, *plan.options.backend); },
           false};
 }
 
-Targets to(const StylizePlan& plan, StylizeSteps& steps, const Developable& style) {
-  if (!steps.normal_fit) steps.normal_fit = normal_fit_of(plan);
-  const auto find = [&](const Positions& positions) {
-    Positions of_triangles = developable_normals(plan, *steps.normal_fit, style, positions);
+Targets to(const StylizePlan& plan, const Developable& style) {
+  const std::shared_ptr<NormalFitStep> step = normal_fit_of(plan);
+  const auto find = [&plan, &style, step](const Positions& positions) {
+    Positions of_triangles = developable_normals(plan, *step, style, positions);
     if (plan.of_triangles()) return of_triangles;
     const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
     return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));
@@ -60,8 +60,8 @@ Targets to(const StylizePlan& plan, StylizeSteps& steps, const Developable& styl
 
 }  // namespace
 
-Targets targets_of(const StylizePlan& plan, StylizeSteps& steps, const Style& style) {
-  return std::visit([&](const auto& one) { return to(plan, steps, one); }, style);
+Targets targets_of(const StylizePlan& plan, const Style& style) {
+  return std::visit([&](const auto& one) { return to(plan, one); }, style);
 }
 
 }  // namespace swage

@@ -13,8 +13,8 @@ struct Targets {
   bool dynamic = false;  ///< Whether they are found again after each pass.
 };
 
-/// Borrows the plan, its steps and the style.
-Targets targets_of(const StylizePlan& plan, StylizeSteps& steps, const Style& style);
+/// Borrows the plan and the style. For one thread.
+Targets targets_of(const StylizePlan& plan, const Style& style);
 
 /// Of triangles (paper appendix E). Mesh units squared are those of the style's threshold.
 Positions developable_normals(const StylizePlan& plan, NormalFitStep& step, const Developable& style,

@@ -18,8 +18,7 @@ namespace swage {
 enum class StylizeEnergy {
   arap,   ///< Each vertex's triangles keep their shape up to a rotation: smooth, details kept (eq. 3).
   farap,  ///< Each triangle does, and bends freely against the next: sharp creases (eq. 4).
-  acap,   ///< As arap, up to a rotation and a scale: details may grow and shrink (eq. 5). A component that is not held
-          ///< in two places keeps its area.
+  acap,   ///< As arap, up to a rotation and a scale: details may grow and shrink (eq. 5), but not all together.
 };
 
 /// "arap", "farap", "acap".
@@ -27,16 +26,34 @@ const char* to_string(StylizeEnergy energy);
 
 /// How acap finds a neighbourhood's scale s.
 enum class AcapScale {
-  exact,  ///< The one of least energy, of those that keep the area.
+  exact,  ///< The one of least energy, with a mean square over each component of 1, or where handles at several places
+          ///< give the size, of what they draw together to at least: all would shrink to a point else.
   paper,  ///< By the formula of appendix C, which counts the normals' term. The energy may rise.
 };
 
+/// What edges count.
+enum class StylizeWeights {
+  cotangent,           ///< Cotangents of the angles opposite, as the paper: less than nothing where these sum to more
+                       ///< than pi, and there triangles turn over more easily.
+  clamped,             ///< The same, but obtuse angles count as right ones.
+  intrinsic_delaunay,  ///< Cotangents of the surface's intrinsic Delaunay triangulation, where no two angles opposite
+                       ///< an edge sum to more than pi. Its edges stand for the straight lines between their ends. Not
+                       ///< for farap, whose triangles are the mesh's own.
+};
+
+/// "cotangent", "clamped", "intrinsic delaunay".
+const char* to_string(StylizeWeights weights);
+
 struct StylizeOptions {
   StylizeEnergy energy = StylizeEnergy::arap;
+  StylizeWeights weights = StylizeWeights::cotangent;
   AcapScale scale = AcapScale::exact;  ///< Of acap.
   int pass_limit = 350;                ///< At least 1.
   double movement = 2e-4;              ///< max|U - U_prev| / max|U - V|, at least 0, over all coordinates: passes end
                                        ///< that move less.
+  int acceleration_window = 0;         ///< Passes that the next start is made of, [0, 50]; 0 for plain ones, as the
+                                       ///< paper. Such a start counts where the energy there, of the targets that it
+                                       ///< has, is not above the last pass's. The fixed point is the same.
   std::shared_ptr<Backend> backend;    ///< Does the local steps; cpu_backend() where none is given.
 };
 

@@ -96,6 +96,53 @@ TEST_P(StylizeReferenceEnd, IsThePublished) {
   EXPECT_NEAR(result.report.passes, published_passes(GetParam()), 1);
 }
 
+/// Unit or zero: of vertices, or of triangles where the energy is theirs.
+Positions normals_of(const Mesh& shape, const Positions& positions, StylizeEnergy energy) {
+  Positions normals = area_vectors(positions, shape.triangles);
+  if (energy == farap) return normals.rowwise().normalized();
+  Positions sums = Positions::Zero(positions.rows(), 3);
+  for (Eigen::Index t = 0; t < normals.rows(); ++t) {
+    for (const int v : shape.triangles.row(t)) sums.row(v) += normals.row(t);
+  }
+  return sums.rowwise().normalized();
+}
+
+/// Of each row the nearest direction's target.
+Positions targets_of(const Positions& normals, const Positions& directions, const Positions& targets) {
+  Positions result = normals;
+  for (auto row : result.rowwise()) {
+    Eigen::Index nearest = 0;
+    (directions * row.transpose()).maxCoeff(&nearest);
+    row = targets.row(nearest);
+  }
+  return result;
+}
+
+/// Of closest normals the targets of the positions, of sphere maps those of the rest shape.
+double mean_angle(const Mesh& shape, const Positions& positions, const Style& style, StylizeEnergy energy) {
+  const Positions normals = normals_of(shape, positions, energy);
+  Positions targets;
+  if (const auto* closest = std::get_if<ClosestNormals>(&style)) {
+    targets = targets_of(normals, closest->normals, closest->normals);
+  } else {
+    const auto& map = std::get<SphereMap>(style);
+    targets = targets_of(normals_of(shape, shape.positions, energy), map.directions, map.normals);
+  }
+  return normals.cwiseProduct(targets).rowwise().sum().array().min(1.0).acos().mean();
+}
+
+TEST_P(StylizeReferenceEnd, NearsItsTargetsByThePublishedFactor) {
+  const Style style = style_of(GetParam());
+  const auto angle = [&](const Positions& positions) {
+    return mean_angle(shape_, positions, style, GetParam().energy);
+  };
+  const double published =
+      angle(read(std::string(GetParam().name) + "__itconv.obj").positions) / angle(shape_.positions);
+  const double here = angle(solved(350).positions) / angle(shape_.positions);
+  EXPECT_LT(published, 0.9);
+  EXPECT_NEAR(here, published, 0.01 * published);
+}
+
 std::string test_name(const testing::TestParamInfo<Expected>& instance) {
   std::string name = instance.param.name;
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';

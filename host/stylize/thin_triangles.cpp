@@ -1,0 +1,140 @@
+#include "thin_triangles.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
+constexpr double kThin = std::numbers::pi * 10 / 180;  // Radians: triangles of smaller angles are relaxed.
+constexpr double kMostTurn = 0.5;                      // Cosine of 60 degrees.
+constexpr int kHalvings = 6;                           // Then vertices are put back where they were.
+constexpr int kRounds = 3;
+constexpr double kPull = 0.3;  // Of the way to the neighbours' mean.
+constexpr double kFree = 1e-9;
+
+double least_angle_of(const Matrix3d& corners) {
+  double least = std::numbers::pi;
+  for (int k = 0; k < 3; ++k) {
+    const RowVector3d a = corners.row((k + 1) % 3) - corners.row(k), b = corners.row((k + 2) % 3) - corners.row(k);
+    least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  return least;
+}
+
+double least_angle_of(const StylizePlan& plan, const Positions& positions, Index t) {
+  return least_angle_of(Matrix3d(positions(plan.mesh.triangles.row(t), Eigen::all)));
+}
+
+std::vector<char> vertices_of(const StylizePlan& plan, const std::vector<char>& is_marked) {
+  std::vector<char> vertices(plan.component.size(), 0);
+  for (Index t = 0; t < plan.mesh.triangles.rows(); ++t) {
+    if (is_marked[static_cast<size_t>(t)] == 0) continue;
+    for (const int v : plan.mesh.triangles.row(t)) vertices[static_cast<size_t>(v)] = 1;
+  }
+  return vertices;
+}
+
+/// Least angle around a vertex that is at `place`; below 0 where a triangle turns over.
+double least_around(const StylizePlan& plan, const Positions& positions, int v, const RowVector3d& place) {
+  double least = std::numbers::pi;
+  for (const int t : plan.triangles_around[v]) {
+    const Matrix3d before = positions(plan.mesh.triangles.row(t), Eigen::all);
+    Matrix3d corners = before;
+    for (int k = 0; k < 3; ++k) {
+      if (plan.mesh.triangles(t, k) == v) corners.row(k) = place;
+    }
+    const auto normal = [](const Matrix3d& c) { return (c.row(1) - c.row(0)).cross(c.row(2) - c.row(0)).eval(); };
+    if (normal(before).dot(normal(corners)) < 0) return -1;
+    least = std::min(least, least_angle_of(corners));
+  }
+  return least;
+}
+
+/// Of a step what no target of the triangles around has a part of.
+RowVector3d along_targets(const StylizePlan& plan, const Positions& targets, int v, const RowVector3d& step) {
+  Matrix3d sum = Matrix3d::Zero();
+  for (const int t : plan.triangles_around[v]) sum += targets.row(t).transpose() * targets.row(t);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(sum);
+  RowVector3d free = RowVector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const RowVector3d axis = solver.eigenvectors().col(k).transpose();
+    if (solver.eigenvalues()[k] < kFree) free += step.dot(axis) * axis;
+  }
+  return free;
+}
+
+RowVector3d to_neighbours(const StylizePlan& plan, const Positions& positions, int v) {
+  RowVector3d sum = RowVector3d::Zero();
+  int count = 0;
+  for (const int t : plan.triangles_around[v]) {
+    for (const int other : plan.mesh.triangles.row(t)) {
+      if (other == v) continue;
+      sum += positions.row(other) - positions.row(v);
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+}  // namespace
+
+void hold_back(const StylizePlan& plan, const std::vector<char>& is_fixed, double least_angle,
+               const Positions& rest_normals, const Positions& start, Positions& positions) {
+  const Index count = plan.mesh.triangles.rows();
+  const Positions before = unit_normals(start, plan.mesh.triangles);
+  std::vector<char> is_bad(static_cast<size_t>(count));
+  for (int round = 0;; ++round) {
+    const Positions now = unit_normals(positions, plan.mesh.triangles);
+#pragma omp parallel for schedule(static)
+    for (Index t = 0; t < count; ++t) {
+      bool bad = (before.row(t).dot(now.row(t)) < kMostTurn && !before.row(t).isZero(0)) ||
+                 rest_normals.row(t).dot(now.row(t)) < std::min(0.0, rest_normals.row(t).dot(before.row(t)));
+      if (!bad) {
+        const double angle = least_angle_of(plan, positions, t);
+        bad = angle < least_angle && angle < least_angle_of(plan, start, t);
+      }
+      is_bad[static_cast<size_t>(t)] = bad ? 1 : 0;
+    }
+    const std::vector<char> is_drawn = vertices_of(plan, is_bad);
+    bool moves = false;
+    for (Index v = 0; v < positions.rows(); ++v) {
+      const auto at = static_cast<size_t>(v);
+      if (is_drawn[at] == 0 || is_fixed[at] != 0 || positions.row(v) == start.row(v)) continue;
+      moves = true;
+      positions.row(v) = round < kHalvings ? RowVector3d((positions.row(v) + start.row(v)) / 2) : start.row(v);
+    }
+    if (!moves) return;
+  }
+}
+
+void relax(const StylizePlan& plan, const std::vector<char>& is_fixed, const Positions& targets, Positions& positions) {
+  std::vector<char> is_thin(static_cast<size_t>(plan.mesh.triangles.rows()));
+  for (int round = 0; round < kRounds; ++round) {
+    for (Index t = 0; t < plan.mesh.triangles.rows(); ++t) {
+      is_thin[static_cast<size_t>(t)] = least_angle_of(plan, positions, t) < kThin ? 1 : 0;
+    }
+    const std::vector<char> is_moved = vertices_of(plan, is_thin);
+    for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+      if (is_moved[static_cast<size_t>(v)] == 0 || is_fixed[static_cast<size_t>(v)] != 0) continue;
+      const double least = least_around(plan, positions, v, positions.row(v));
+      const RowVector3d step = along_targets(plan, targets, v, kPull * to_neighbours(plan, positions, v));
+      for (const double part : {1.0, 0.5, 0.25}) {
+        const RowVector3d place = positions.row(v) + part * step;
+        if (least_around(plan, positions, v, place) <= least) continue;
+        positions.row(v) = place;
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace swage
