@@ -136,7 +136,7 @@ Flops flops_of_curvature(int neighbours, double scalar_size) {
     Triangle triangle = no_equations();
     for (int k = 0; k < neighbours; ++k) triangle = fold(triangle, terms_at(units, normal, offset_to(k, single)));
     const Rows rows = orthogonal(rows_of(triangle), single ? sizeof(float) : sizeof(double));
-    principal_curvatures(coefficients(rows), units.per_u, units.per_w);
+    principal_curvatures(graph_of(coefficients(rows), units.per_u, units.per_w));
   });
 }
 

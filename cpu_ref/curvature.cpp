@@ -51,19 +51,25 @@ Quadric fit_in_own_units(const Eigen::MatrixX2d& places, const Eigen::VectorXd& 
   return {to_units * quadric.gradient, to_units * quadric.hessian * to_units.transpose()};
 }
 
-/// From the first and second fundamental forms of the graph; its normal points up, so a hill curves positively.
-Eigen::RowVector2d principal_curvatures(const Quadric& quadric) {
+struct Principal {
+  Eigen::RowVector2d curvatures = Eigen::RowVector2d::Zero();
+  Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();  ///< Of the first.
+};
+
+/// From the first and second fundamental forms of the graph over a plane, whose normal points up: a hill curves
+/// positively.
+Principal principal_of(const Quadric& quadric, const Eigen::Matrix<double, 3, 2>& plane, const Eigen::Vector3d& up) {
   const Eigen::Matrix2d first = Eigen::Matrix2d::Identity() + quadric.gradient * quadric.gradient.transpose();
   const Eigen::Matrix2d second = quadric.hessian / std::sqrt(1 + quadric.gradient.squaredNorm());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shape(second, first,
-                                                                        Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
-  return -shape.eigenvalues().transpose();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shape(second, first);
+  const Eigen::Vector2d along = shape.eigenvectors().col(0);
+  return {-shape.eigenvalues().transpose(), (plane * along + quadric.gradient.dot(along) * up).normalized()};
 }
 
-Eigen::RowVector2d curvatures_at(const CurvatureStep::Rest& rest, int v) {
+Principal principal_at(const CurvatureStep::Rest& rest, int v) {
   const auto at = static_cast<size_t>(v);
   const int first = rest.offsets[at], count = rest.offsets[at + 1] - first;
-  if (count < kCoefficients) return Eigen::RowVector2d::Zero();
+  if (count < kCoefficients) return {};
 
   const Eigen::Vector3d normal = rest.normals.row(v);
   Eigen::Matrix<double, 3, 2> plane;
@@ -71,7 +77,7 @@ Eigen::RowVector2d curvatures_at(const CurvatureStep::Rest& rest, int v) {
   plane.col(1) = normal.cross(plane.col(0));
   const Eigen::Map<const Eigen::VectorXi> neighbours(rest.neighbours.data() + first, count);
   const Positions offsets = rest.positions(neighbours, Eigen::all).rowwise() - rest.positions.row(v);
-  return principal_curvatures(fit_in_own_units(offsets * plane, offsets * normal));
+  return principal_of(fit_in_own_units(offsets * plane, offsets * normal), plane, normal);
 }
 
 class CpuCurvature final : public CurvatureStep {
@@ -79,10 +85,20 @@ class CpuCurvature final : public CurvatureStep {
   explicit CpuCurvature(const Rest& rest) : rest_(rest) {}
 
   void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) override {
+    Positions directions;
+    fit(curvatures, directions);
+  }
+
+  void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures, Positions& directions) override {
     const int count = static_cast<int>(rest_.positions.rows());
     curvatures.resize(count, 2);
+    directions.resize(count, 3);
 #pragma omp parallel for schedule(dynamic, 256)
-    for (int v = 0; v < count; ++v) curvatures.row(v) = curvatures_at(rest_, v);
+    for (int v = 0; v < count; ++v) {
+      const Principal principal = principal_at(rest_, v);
+      curvatures.row(v) = principal.curvatures;
+      directions.row(v) = principal.direction;
+    }
   }
 
  private:

@@ -27,7 +27,8 @@ INLINE real difference(global const scalar* places, global const int* from, glob
 /// first_slots[i] to first_slots[i + 1], have its vertices, then a neighbour of each, the vertex itself where it has no
 /// more.
 kernel void fit_curvatures(const int count, const int stride, global const int* first_slots, global const int* slots,
-                           global const scalar* places, global const scalar* normals, global scalar* curvatures) {
+                           global const scalar* places, global const scalar* normals, global scalar* curvatures,
+                           const int with_directions, global scalar* directions) {
   const int i = get_global_id(0);
   if (i >= count) return;
   global const int* own = slots + (long)LANES * first_slots[i];
@@ -48,7 +49,13 @@ kernel void fit_curvatures(const int count, const int stride, global const int* 
     triangle = fold(triangle, terms_at(units, normal, vec3(x, y, z)));
   }
   const Rows rows = orthogonal(rows_of(triangle), sizeof(scalar));
-  const PrincipalCurvatures k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
+  const Graph graph = graph_of(coefficients(rows), units.per_u, units.per_w);
+  const PrincipalCurvatures k = principal_curvatures(graph);
   store_entries(k.k1, curvatures + 2 * LANES * i, 2);
   store_entries(k.k2, curvatures + 2 * LANES * i + 1, 2);
+  if (!with_directions) return;
+  const Vec3 first = first_direction(graph, units, normal);
+  store_entries(first.x, directions + 3 * LANES * i, 3);
+  store_entries(first.y, directions + 3 * LANES * i + 1, 3);
+  store_entries(first.z, directions + 3 * LANES * i + 2, 3);
 }

@@ -1,6 +1,7 @@
 // The curvature step on a device.
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "kernel.h"
 #include "opencl_steps.h"
@@ -85,10 +86,19 @@ class OpenClCurvature final : public CurvatureStep {
       : OpenClCurvature(queue, rest, in_lanes(rest, queue.context->lanes(kStem))) {}
 
   void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) override {
-    fit_.launch(items_, stride_, first_slots_, slots_, places_, normals_, curvatures_);
-    curvatures_.download(curvatures_in_lanes_, Layout::rows);
-    curvatures.resize(count_, 2);
-    curvatures(vertices_.head(count_), Eigen::all) = per_length_ * curvatures_in_lanes_.topRows(count_);
+    if (!directions_) directions_.emplace(queue_, 0);
+    launch(0);
+    take(curvatures);
+  }
+
+  void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures, Positions& directions) override {
+    if (!directions_ || directions_->size() == 0) directions_.emplace(queue_, Index{3} * stride_);
+    launch(1);
+    take(curvatures);
+    Positions in_lanes(stride_, 3);
+    directions_->download(in_lanes, Layout::rows);
+    directions.resize(count_, 3);
+    directions(vertices_.head(count_), Eigen::all) = in_lanes.topRows(count_);
   }
 
  private:
@@ -96,7 +106,8 @@ class OpenClCurvature final : public CurvatureStep {
       : OpenClCurvature(queue, rest, vertices, first_slots(rest, vertices, queue.context->lanes(kStem))) {}
 
   OpenClCurvature(const Queue& queue, const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first)
-      : count_(rest.positions.rows()),
+      : queue_(queue),
+        count_(rest.positions.rows()),
         items_(static_cast<int>(first.size()) - 1),
         stride_(static_cast<int>(vertices.size())),
         per_length_(inverse_extent(rest.positions)),
@@ -110,12 +121,24 @@ class OpenClCurvature final : public CurvatureStep {
         curvatures_in_lanes_(stride_, 2),
         fit_(queue, kStem, "fit_curvatures") {}
 
+  void launch(int with_directions) {
+    fit_.launch(items_, stride_, first_slots_, slots_, places_, normals_, curvatures_, with_directions, *directions_);
+  }
+
+  void take(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) {
+    curvatures_.download(curvatures_in_lanes_, Layout::rows);
+    curvatures.resize(count_, 2);
+    curvatures(vertices_.head(count_), Eigen::all) = per_length_ * curvatures_in_lanes_.topRows(count_);
+  }
+
+  Queue queue_;
   Index count_;
   int items_, stride_;
   double per_length_;
   Eigen::VectorXi vertices_;
   Ints first_slots_, slots_;
   Reals places_, normals_, curvatures_;
+  std::optional<Reals> directions_;  // None, until they are asked for.
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> curvatures_in_lanes_;
   Kernel fit_;
 };

@@ -139,6 +139,9 @@ class CurvatureStep {
   /// #V × 2, k1 >= k2, 1 / unit of the positions. The flattest fitting quadric counts where its neighbours leave one
   /// coefficient undetermined; 0 where more are, or there are fewer than five neighbours.
   virtual void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures) = 0;
+  /// With `directions`, #V × 3: a unit vector along the surface in which it curves by k1; any, or 0, where both are the
+  /// same.
+  virtual void fit(Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& curvatures, Positions& directions) = 0;
 };
 
 /// Principal directions of the normals around each vertex (stylize.h; paper appendix E): of the second moment

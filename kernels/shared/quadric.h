@@ -266,23 +266,56 @@ static inline Terms coefficients(Rows r) {
   return scale_terms(rank > (real)3.5 ? (real)1 : (real)0, sum);
 }
 
+/// The graph of a quadric, its normal up: the gradient, C⁻¹ = [1 / p, 0; q, r] of the first fundamental form C Cᵀ, and
+/// s C⁻¹ L C⁻ᵀ = [a, o; o, b], L the second.
+typedef struct {
+  real gx, gy, p, q, r, s, a, o, b;
+} Graph;
+
+/// Of the quadric with these coefficients in units of 1 / per_u and 1 / per_w.
+static inline Graph graph_of(Terms of, real per_u, real per_w) {
+  const real gx = per_u * of.x, gy = per_w * of.y;
+  const real xx = (real)2 * per_u * per_u * of.xx, yy = (real)2 * per_w * per_w * of.yy;
+  const real xy = (real)1.4142135623730951 * per_u * per_w * of.xy;
+  const real pp = (real)1 + gx * gx, ss = pp + gy * gy, p = sqrt(pp), s = sqrt(ss);
+  const real q = -gx * gy / (p * s), r = p / s;
+  Graph g;
+  g.gx = gx;
+  g.gy = gy;
+  g.p = p;
+  g.q = q;
+  g.r = r;
+  g.s = s;
+  g.a = xx / pp;
+  g.o = (xx * q + xy * r) / p;
+  g.b = q * q * xx + (real)2 * q * r * xy + r * r * yy;
+  return g;
+}
+
 /// k1 >= k2.
 typedef struct {
   real k1, k2;
 } PrincipalCurvatures;
 
-/// Of the graph of the quadric with these coefficients in units of 1 / per_u and 1 / per_w, its normal up: the
-/// eigenvalues of C⁻¹ L C⁻ᵀ with L the second fundamental form and C Cᵀ the first.
-static inline PrincipalCurvatures principal_curvatures(Terms of, real per_u, real per_w) {
-  const real gx = per_u * of.x, gy = per_w * of.y;
-  const real xx = (real)2 * per_u * per_u * of.xx, yy = (real)2 * per_w * per_w * of.yy;
-  const real xy = (real)1.4142135623730951 * per_u * per_w * of.xy;
-  const real pp = (real)1 + gx * gx, ss = pp + gy * gy, p = sqrt(pp), s = sqrt(ss);
-  const real q = -gx * gy / (p * s), r = p / s;  // C⁻¹ = [1 / p, 0; q, r]
-  const real a = xx / pp, o = (xx * q + xy * r) / p, b = q * q * xx + (real)2 * q * r * xy + r * r * yy;
-  const real mean = (real)0.5 * (a + b), h = (real)0.5 * (a - b), radius = sqrt(h * h + o * o);
+static inline PrincipalCurvatures principal_curvatures(Graph g) {
+  const real mean = (real)0.5 * (g.a + g.b), h = (real)0.5 * (g.a - g.b), radius = sqrt(h * h + g.o * g.o);
   PrincipalCurvatures k;
-  k.k1 = (radius - mean) / s;
-  k.k2 = (-radius - mean) / s;
+  k.k1 = (radius - mean) / g.s;
+  k.k2 = (-radius - mean) / g.s;
   return k;
+}
+
+/// Of k1: C⁻ᵀ times the eigenvector of the smaller eigenvalue. Any, or 0, where both are the same.
+static inline Vec3 first_direction(Graph g, Units units, Vec3 normal) {
+  const real h = (real)0.5 * (g.a - g.b), radius = sqrt(h * h + g.o * g.o);
+  const mask second_is_smaller = h >= (real)0;
+  const real y = second_is_smaller ? -g.o : radius - h, z = second_is_smaller ? h + radius + (real)1e-30 : -g.o;
+  const real along_u = y / g.p + g.q * z, along_w = g.r * z;
+  const mask any = units.per_u > (real)0;
+  const Vec3 u = scale3(any ? (real)1 / (any ? units.per_u : (real)1) : (real)0, units.axes.u);
+  const Vec3 w = scale3(any ? (real)1 / (any ? units.per_w : (real)1) : (real)0, units.axes.w);
+  const Vec3 v = add3(add3(scale3(along_u, u), scale3(along_w, w)),
+                      scale3(any ? along_u * g.gx + along_w * g.gy : (real)0, normal));
+  const real length = sqrt(dot3(v, v));
+  return scale3(length > (real)0 ? (real)1 / (length > (real)0 ? length : (real)1) : (real)0, v);
 }

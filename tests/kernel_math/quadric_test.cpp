@@ -251,8 +251,8 @@ TYPED_TEST(QuadricFit, HasTheCurvaturesOfItsGraph) {
     const Matrix2d first = Matrix2d::Identity() + slope * slope.transpose();
     const Matrix2d second = hessian / std::sqrt(1 + slope.squaredNorm());
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> shape(second, first, Eigen::EigenvaluesOnly);
-    const auto k =
-        principal_curvatures(equation<TypeParam>(c.row(0)), static_cast<real>(per[0]), static_cast<real>(per[1]));
+    const auto k = principal_curvatures(
+        graph_of(equation<TypeParam>(c.row(0)), static_cast<real>(per[0]), static_cast<real>(per[1])));
     ASSERT_NEAR(k.k1, -shape.eigenvalues()[0], 20 * TypeParam::kRounding * hessian.norm());
     ASSERT_NEAR(k.k2, -shape.eigenvalues()[1], 20 * TypeParam::kRounding * hessian.norm());
   }
@@ -304,7 +304,7 @@ Eigen::RowVector2d curvatures_at(const CurvatureStep::Rest& rest, int v) {
   typename As::Triangle triangle = As::no_equations();
   for (auto k = first; k < last; ++k) triangle = fold(triangle, terms_at(units, normal, offset(*k)));
   const auto rows = orthogonal(rows_of(triangle), sizeof(real));
-  const auto k = principal_curvatures(coefficients(rows), units.per_u, units.per_w);
+  const auto k = principal_curvatures(graph_of(coefficients(rows), units.per_u, units.per_w));
   return {k.k1, k.k2};
 }
 

@@ -163,6 +163,41 @@ TEST_P(CurvatureStepBy, IsTheReference) {
   }
 }
 
+TEST_P(CurvatureStepBy, DirectsAsTheReference) {
+  if (!backend_) return;
+  for (const auto& [name, rest] : families()) {
+    Curvatures found, expected;
+    Positions directions, expected_directions;
+    backend_->curvature(rest)->fit(found, directions);
+    cpu_backend()->curvature(rest)->fit(expected, expected_directions);
+    EXPECT_EQ(found, fitted(*backend_, rest)) << name;
+    ASSERT_EQ(directions.rows(), found.rows()) << name;
+    double worst = 0;
+    for (Index v = 0; v < found.rows(); ++v) {
+      const Eigen::RowVector3d one = directions.row(v), other = expected_directions.row(v);
+      if (expected(v, 0) == expected(v, 1)) continue;
+      ASSERT_NEAR(one.norm(), 1, 1e-5) << name << ", vertex " << v;
+      const double unit = curvature_unit(rest, v) + expected.row(v).cwiseAbs().maxCoeff();
+      worst = std::max(worst, (expected(v, 0) - expected(v, 1)) * one.cross(other).norm() / unit);
+    }
+    EXPECT_LE(worst, 4 * GetParam().tolerance) << name;
+  }
+}
+
+TEST_P(CurvatureStepBy, DirectsAroundATube) {
+  if (!backend_) return;
+  const Mesh torus = test::torus(1, 0.4, 128, 64);
+  Curvatures curvatures;
+  Positions directions;
+  backend_->curvature(two_rings(torus))->fit(curvatures, directions);
+  for (Index v = 0; v < directions.rows(); ++v) {
+    const Eigen::RowVector3d at = torus.positions.row(v);
+    const Eigen::RowVector3d middle = Eigen::RowVector3d(at[0], at[1], 0).normalized();
+    const Eigen::RowVector3d along = Eigen::RowVector3d(0, 0, 1).cross(middle);
+    ASSERT_NEAR(std::abs(directions.row(v).dot(along.cross(at - middle) / 0.4)), 1, 1e-3) << "vertex " << v;
+  }
+}
+
 /// The largest difference from what is expected at a vertex, away from borders.
 double largest_error(const Rest& rest, const Curvatures& found, size_t full,
                      const std::function<Eigen::RowVector2d(const Eigen::RowVector3d&)>& expected) {
