@@ -50,8 +50,9 @@ Targets to(const StylizePlan& plan, const SphereMap& style) {
 }
 
 Targets to(const StylizePlan& plan, const Developable& style) {
-  const auto find = [&](const Positions& positions) {
-    const Positions of_triangles = developable_normals(plan, style, positions);
+  const double least_part = style.threshold > 0 ? 0 : style.tau * mean_second_spread(plan);
+  const auto find = [&, least_part](const Positions& positions) {
+    const Positions of_triangles = developable_normals(plan, style, least_part, positions);
     if (plan.of_triangles()) return of_triangles;
     const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
     return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));

@@ -4,7 +4,9 @@
 #include <omp.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -150,10 +152,49 @@ TEST(Stylize, KeepsItsSizeWhereItScalesFreely) {
   EXPECT_NEAR(extents(result, 0, half).mean(), extents(mesh.positions, 0, half).mean() / 2, 0.02);
 }
 
+/// On meshes coarse and fine, by default.
 TEST(Stylize, UnrollsMoreThanAtRest) {
-  const Mesh mesh = askew(sphere(1, 3));
-  const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{0}, 1000, by(farap));
-  EXPECT_GT(flat_share(mesh, bent.positions), flat_share(mesh, mesh.positions) + 0.2);
+  for (const auto& [mesh, more] :
+       {std::pair(askew(sphere(1, 3)), 0.2), std::pair(askew(sphere(1, 4)), 0.45),
+        std::pair(askew(bumpy_sphere(0.08, 3)), 0.15), std::pair(askew(bumpy_sphere(0.08)), 0.4)}) {
+    const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{}, 1000, by(farap, 120));
+    EXPECT_GT(flat_share(mesh, bent.positions), flat_share(mesh, mesh.positions) + more);
+  }
+}
+
+/// Edges that turn by more than so many degrees.
+int creases(const Mesh& mesh, const Positions& positions, double degrees) {
+  const Edges edges = edges_of(mesh.triangles);
+  const Positions normals = unit_normals(positions, mesh.triangles);
+  int count = 0;
+  for (int e = 0; e < edges.triangles.size(); ++e) {
+    const Lists::Range beside = edges.triangles[e];
+    const double cosine = normals.row(beside[0]).dot(normals.row(beside[1]));
+    if (cosine < std::cos(degrees * std::numbers::pi / 180)) ++count;
+  }
+  return count;
+}
+
+TEST(Stylize, MakesFewerCreasesTheLargerTauIs) {
+  const Mesh mesh = askew(bumpy_sphere(0.08));
+  int last = std::numeric_limits<int>::max();
+  for (const double tau : {0.0, 0.25, 1.0}) {
+    const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{tau}, 1000, by(farap, 120));
+    const int now = creases(mesh, bent.positions, 20);
+    EXPECT_LT(now, 0.9 * last);
+    last = now;
+  }
+}
+
+TEST(Stylize, LeavesCurvatureToTheCreases) {
+  const Mesh mesh = askew(bumpy_sphere(0.08));
+  const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{}, 1000, by(farap, 120));
+  const auto at_most_bent = [&](const Positions& positions) {
+    Eigen::VectorXd defects = angle_defects(mesh, positions).cwiseAbs();
+    std::sort(defects.begin(), defects.end());
+    return defects.tail(defects.size() / 10).sum() / defects.sum();
+  };
+  EXPECT_GT(at_most_bent(bent.positions), 2 * at_most_bent(mesh.positions));
 }
 
 TEST(Stylize, MeetsItsHandlesAndHoldsEachOtherComponentByAVertex) {
@@ -282,7 +323,7 @@ TEST(Stylize, RefusesWhatItCannotTake) {
   expect_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
   expect_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
   expect_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
-  expect_refused(solve(Developable{0.6}, 1), "tau");
+  expect_refused(solve(Developable{-0.1}, 1), "tau");
   expect_refused(solve(Developable{0.1, -1}, 1), "threshold");
   expect_refused(solve(SphereMap{}, 1), "directions");
   expect_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");
