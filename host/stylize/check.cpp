@@ -91,7 +91,7 @@ void check_style(const StylizePlan& plan, const Style& style, double lambda) {
   }
   if (const auto* map = std::get_if<SphereMap>(&style)) check_sphere(*map);
   if (const auto* developable = std::get_if<Developable>(&style)) {
-    if (!(developable->tau >= 0 && developable->tau <= 0.5)) refuse("tau", "not in [0, 1/2]");
+    if (!(developable->tau >= 0 && std::isfinite(developable->tau))) refuse("tau", "not finite and at least 0");
     if (!(developable->threshold >= 0 && std::isfinite(developable->threshold))) {
       refuse("threshold", "not finite and at least 0");
     }

@@ -19,7 +19,14 @@ RowVector3d projected(const RowVector3d& normal, const Transforms& directions, b
 
 }  // namespace
 
-Positions developable_normals(const StylizePlan& plan, NormalFitStep& step, const Developable& style,
+double mean_second_spread(const StylizePlan& plan, NormalFitStep& step) {
+  Transforms directions;
+  Positions spreads;
+  step.fit(area_vectors(plan.elements.pairs.vertices, plan.mesh.triangles), directions, spreads);
+  return spreads.col(1).sum() / spreads.sum();
+}
+
+Positions developable_normals(const StylizePlan& plan, NormalFitStep& step, const Developable& style, double least_part,
                               const Positions& positions) {
   const Triangles& triangles = plan.mesh.triangles;
   Positions normals = area_vectors(positions, triangles);
@@ -30,7 +37,7 @@ Positions developable_normals(const StylizePlan& plan, NormalFitStep& step, cons
   // As the authors' program: of twice the areas.
   const double threshold = style.threshold / (2 * plan.box.extent * plan.box.extent);
   const auto is_one = [&](Eigen::Index v) {
-    return spreads(v, 1) < (threshold > 0 ? threshold : style.tau * spreads.row(v).sum());
+    return spreads(v, 1) < (threshold > 0 ? threshold : least_part * spreads.row(v).sum());
   };
   Positions targets(triangles.rows(), 3);
 #pragma omp parallel for schedule(static)

@@ -94,7 +94,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   if (plan.options.acceleration_window > 0) {
     // As Deform's.
     passes.next = [&](const Positions& start, const Positions& end, const Poll&) {
-      const Positions next = acceleration.next(start, end);
+      Positions next = acceleration.next(start, end);
       if (next == end) return next;
       const StylizeFit before = fitted;
       if (targets.dynamic) target_normals = targets.find(next);

@@ -49,8 +49,9 @@ Targets to(const StylizePlan& plan, const SphereMap& style) {
 
 Targets to(const StylizePlan& plan, const Developable& style) {
   const std::shared_ptr<NormalFitStep> step = normal_fit_of(plan);
-  const auto find = [&plan, &style, step](const Positions& positions) {
-    Positions of_triangles = developable_normals(plan, *step, style, positions);
+  const double least_part = style.threshold > 0 ? 0 : style.tau * mean_second_spread(plan, *step);
+  const auto find = [&plan, &style, step, least_part](const Positions& positions) {
+    Positions of_triangles = developable_normals(plan, *step, style, least_part, positions);
     if (plan.of_triangles()) return of_triangles;
     const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
     return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));

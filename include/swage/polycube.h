@@ -25,15 +25,15 @@ struct PolycubeOptions {
 };
 
 /// Stylizes by triangles (StylizeEnergy::farap, StylizeWeights::clamped) to the closest of the style's normals, which
-/// are looked up again all along, pass after pass, each with the last one's shape at rest: so nothing draws details
-/// back. After each pass but the first, what would thin a triangle out is held back, and vertices of thin triangles
-/// move a little towards the mean of their neighbours, along what their triangles' targets leave free. A cube's six
-/// normals make a PolyCube, prism(6)'s a hexagonal one.
+/// are looked up again after every step (style.dynamic is not asked), pass after pass, each with the last one's shape
+/// at rest: nothing draws details back. After each pass but the first, what would thin out or turn over a triangle is
+/// held back, and vertices of triangles of angles below 10 degrees move a little towards the mean of their neighbours,
+/// along what the targets around leave free. A cube's six normals make a PolyCube, prism(6)'s a hexagonal box.
 ///
-/// The energy is the mean over the area of |n - t|², n a triangle's normal and t its target (no unit). Passes end where
-/// it rises, and then the pass before is returned, or falls by less than asked. Handles are met exactly; components
-/// without any keep their centre and the mean square distance of their area from it. `passes` tells of each pass the
-/// terms against its own rest shape.
+/// The report's energy is the mean over the area of |n - t|², n a triangle's normal and t its target (no unit). Passes
+/// end where it falls by less than asked, or does not fall, and then the pass before is returned. Handles are met
+/// exactly; components without any keep their centre and the mean square distance of their area from it. The result's
+/// `passes` are the terms of each against its own rest shape.
 ///
 /// Throws InvalidInput where an option is out of its range or Stylize does, and Unsolvable where it does.
 StylizeResult polycube(const PositionsRef& positions, const TrianglesRef& triangles,

@@ -34,8 +34,9 @@ struct SphereMap {
 /// To where the normals around each vertex lie in a plane or a line: a surface that unrolls without stretching but for
 /// creases. As the paper has it for StylizeEnergy::farap and a lambda of 1000.
 struct Developable {
-  double tau = 0.005;    ///< [0, 1/2]: where the second spread of the normals around a vertex is a smaller part of all
-                         ///< three, they are to be one, else to lie in a plane. 0 bends wherever it can.
+  double tau = 0.25;  ///< At least 0: where the second spread of the normals around a vertex is a smaller part of all
+                      ///< three than so many times the mean at rest, they are to be one, else to lie in a plane. So
+                      ///< it does not depend on how fine a mesh is. 0 bends wherever it can, 1 makes few creases.
   double threshold = 0;  ///< Above 0 in place of tau: the second spread itself, mesh units squared, of twice the
                          ///< areas, as the authors' program compares it.
 };

@@ -5,8 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 
 #include "adjacency.h"
 #include "measures.h"
@@ -148,12 +146,6 @@ TEST(Stylize, KeepsItsSizeWhereItScalesFreely) {
   const Positions result =
       stylize(mesh.positions, mesh.triangles, cube_normals(), 0.01, by(acap, 1000), smaller).positions;
   EXPECT_NEAR(extents(result, 0, half).mean(), extents(mesh.positions, 0, half).mean() / 2, 0.02);
-}
-
-TEST(Stylize, UnrollsMoreThanAtRest) {
-  const Mesh mesh = askew(sphere(1, 3));
-  const StylizeResult bent = stylize(mesh.positions, mesh.triangles, Developable{0}, 1000, by(farap));
-  EXPECT_GT(flat_share(mesh, bent.positions), flat_share(mesh, mesh.positions) + 0.2);
 }
 
 TEST(Stylize, MeetsItsHandlesAndHoldsEachOtherComponentByAVertex) {
@@ -311,7 +303,7 @@ TEST(Stylize, RefusesWhatItCannotTake) {
   expect_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
   expect_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
   expect_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
-  expect_refused(solve(Developable{0.6}, 1), "tau");
+  expect_refused(solve(Developable{-0.1}, 1), "tau");
   expect_refused(solve(Developable{0.1, -1}, 1), "threshold");
   expect_refused(solve(SphereMap{}, 1), "directions");
   expect_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");

@@ -71,12 +71,16 @@ double share_near(const Mesh& mesh, const Positions& positions, const Positions&
   return (angles(mesh, positions, normals).array() <= degrees).select(weights, 0).sum() / weights.sum();
 }
 
-double flat_share(const Mesh& mesh, const Positions& positions) {
+Eigen::VectorXd angle_defects(const Mesh& mesh, const Positions& positions) {
   Eigen::VectorXd defects = Eigen::VectorXd::Constant(positions.rows(), 2 * std::numbers::pi);
   for (const auto& t : mesh.triangles.rowwise()) {
     for (int k = 0; k < 3; ++k) defects[t[k]] -= angle(positions, t, k);
   }
-  return static_cast<double>((defects.array().abs() < 1e-3).count()) / static_cast<double>(positions.rows());
+  return defects;
+}
+
+double flat_share(const Mesh& mesh, const Positions& positions) {
+  return (angle_defects(mesh, positions).array().abs() < 1e-3).cast<double>().mean();
 }
 
 double least_angle(const Mesh& mesh, const Positions& positions) {

@@ -24,7 +24,10 @@ double mean_angle(const Mesh& mesh, const Positions& positions, const Positions&
 /// Share of the area within so many degrees of the nearest of the normals.
 double share_near(const Mesh& mesh, const Positions& positions, const Positions& normals, double degrees);
 
-/// Share of vertices whose angles sum to 2 pi.
+/// Of each vertex what its angles lack of 2 pi.
+Eigen::VectorXd angle_defects(const Mesh& mesh, const Positions& positions);
+
+/// Share of vertices whose angles sum to 2 pi, to 1e-3.
 double flat_share(const Mesh& mesh, const Positions& positions);
 
 /// Least angle of any triangle, degrees.
