@@ -35,7 +35,7 @@ Positions area_vectors(const Positions& positions, const Triangles& triangles) {
 
 Positions unit_normals(const Positions& positions, const Triangles& triangles) {
   Positions normals = area_vectors(positions, triangles);
-  normals.rowwise().normalize();
+  for (auto normal : normals.rowwise()) normal.normalize();  // All at once, those of length 0 would be NaN.
   return normals;
 }
 

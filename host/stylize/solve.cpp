@@ -46,7 +46,8 @@ void tell(const StylizePlan& plan, const HeldLaplacian& held, Report& report) {
 }
 
 StylizeResult cancelled(const StylizePlan& plan) {
-  StylizeResult result{given_mesh(plan).positions, {}, {}};
+  StylizeResult result;
+  result.positions = given_mesh(plan).positions;
   result.report.stop = Termination::cancelled;
   return result;
 }
@@ -62,6 +63,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   StylizeResult result;
   Positions positions = plan.elements.pairs.vertices;
   Positions target_normals = targets.find(positions);
+  result.first_targets = as_given(plan, target_normals);
   StylizeFit fitted = unmoved(plan.system.element_count());
   fit(plan, *steps, positions, target_normals, lambda, fitted);
 
@@ -82,6 +84,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
 
   if (result.report.passes == 0) return cancelled(plan);
+  result.last_targets = as_given(plan, target_normals);
   const StylizeTerms& last = result.passes.back();
   result.report.energy_by_term = {{"shape", last.shape}, {"normals", lambda * last.normals}};
   const Positions solved = plan.box.back(positions);

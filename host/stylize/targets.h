@@ -16,6 +16,9 @@ struct Targets {
 /// Borrows the plan and the style.
 Targets targets_of(const StylizePlan& plan, const Style& style);
 
+/// Of the mesh as given.
+GivenNormals as_given(const StylizePlan& plan, const Positions& targets);
+
 /// Of triangles (paper appendix E). Mesh units squared are those of the style's threshold.
 Positions developable_normals(const StylizePlan& plan, const Developable& style, const Positions& positions);
 

@@ -329,6 +329,12 @@ TEST(StyleShapes, AreClosedAndHaveTheirFaces) {
   EXPECT_THROW(rounded_cube(0.3, 1), InvalidInput);
 }
 
+TEST(StyleShapes, TrianglesWithoutAreaAreNoFaces) {
+  Mesh cube = style_shape(StyleShape::cube);
+  cube.triangles.row(3) << 1, 1, 2;
+  EXPECT_EQ(closest_normals(cube).normals.rows(), 6);
+}
+
 TEST(SphereMap, OfASphereIsTheSphere) {
   const SphereMap map = sphere_map(transformed(sphere(1, 3), 7, {3, 2, 1}));
   EXPECT_LT((map.directions - map.normals).rowwise().norm().maxCoeff(), 0.02);
