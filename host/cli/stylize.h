@@ -34,7 +34,7 @@ struct StylizeJob : EditFiles {
   GestureOptions gesture;
   PictureOptions picture;
   std::string heat = "targets";  ///< Of the picture: targets or none.
-  std::string sheet;  ///< For a picture of the mesh under several styles.
+  std::string sheet;             ///< For a picture of the mesh under several styles.
 };
 
 // stylize_options.cpp

@@ -73,6 +73,11 @@ void check_written(const StylizeJob& job) {
   PictureOptions sheet = job.picture;
   sheet.path = job.sheet;
   check(sheet, "--style-sheet");
+  const PictureOptions usual;
+  const bool has_view = sheet.view != usual.view || sheet.up != usual.up || sheet.size != usual.size;
+  if (has_view && job.picture.path.empty() && job.sheet.empty()) {
+    throw WrongUsage("--view, --up and --size are for pictures: name one with --picture or --style-sheet");
+  }
   if (job.output.empty() && job.json.empty() && job.picture.path.empty() && job.sheet.empty()) {
     throw WrongUsage(
         "nothing to write: name the result mesh with -o FILE, the report with --json FILE or a picture with --picture "

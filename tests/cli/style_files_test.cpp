@@ -238,7 +238,6 @@ TEST_F(StylizeRefuses, BadInput) {
       "1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   expect(3, {{{"@/missing.obj", "--style", "cube", "-o", "@/r.obj"}, "missing.obj"},
              {{"@/ring.obj", "--style", "missing.obj", "-o", "@/r.obj"}, "missing.obj"},
-             {{"@/ring.obj", "--capture", "@/missing.png", "-o", "@/r.obj"}, can_render() ? "missing.png" : "missing"},
              {{"@/ring.obj", "--capture", "@/bare.obj", "-o", "@/r.obj"}, "bare.obj: a capture is a picture"},
              {{"@/ring.obj", "--capture", "@/plain.ply", "-o", "@/r.obj"}, "plain.ply: its vertices have no normals"},
              {{"@/ring.obj", "--normals", "@/plain.ply", "-o", "@/r.obj"}, "plain.ply: neither its vertices"},
@@ -259,6 +258,7 @@ TEST_F(WithPictures, PicturesThatAreNoCaptureOrMapAreRefused) {
   refused({"--capture", file("square.png")}, "square.png: normal_capture: picture: 16 x 16 pixels");
   refused({"--capture", file("cut.png")}, "cut.png: is a damaged PNG");
   refused({"--capture", file("discs.png")}, "of the sphere has no normal");
+  refused({"--capture", file("missing.png")}, "missing.png: there is no such file");
   refused({"--capture", file("ring.obj")}, "ring.obj");
 }
 
