@@ -76,8 +76,8 @@ void open_folders(CompareJob& job) {
 void check_job(const CompareJob& job) {
   check_finding(job.straight, job.finding);
   if (!job.json.empty()) check_can_be_written(job.json, "--json");
-  check(job.picture);
   check_different({{"--picture", job.picture.path}, {"--faces", job.faces}, {"--json", job.json}});
+  check(job.picture);
   if (job.faces.empty()) return;
   if (job.edits.size() > 1) throw WrongUsage("--faces: one edit's numbers go into a file: name one edit");
   if (!job.faces.ends_with(".ply")) throw WrongUsage(fmt::format("--faces {}: name a .ply file", job.faces));
