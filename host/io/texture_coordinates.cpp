@@ -20,15 +20,15 @@ class TextureReader {
       if (!scan_.at_line_end()) statement();
       scan_.skip_line();
     }
-    if (points_.empty()) {
+    if (points.empty()) {
       refuse(input_, "has no texture coordinates (vt); unwrap the mesh and export it with them");
     }
     if (!missing_.empty()) refuse(input_, missing_offset_, missing_);
     check_indices();
   }
 
-  std::vector<double> points_;              // Two each.
-  std::vector<std::vector<int>> polygons_;  // Points of the corners.
+  std::vector<double> points;              // Two each.
+  std::vector<std::vector<int>> polygons;  // Points of the corners.
 
  private:
   void statement() {
@@ -42,8 +42,8 @@ class TextureReader {
     for (int k = 0; k < 2; ++k) {
       Slot slot;
       scan_.skip_blanks();
-      points_.push_back(scan_.number(slot, "a texture coordinate (there are two)"));
-      require_coordinate(input_, slot.offset, points_.back());
+      points.push_back(scan_.number(slot, "a texture coordinate (there are two)"));
+      require_coordinate(input_, slot.offset, points.back());
     }
   }
 
@@ -56,7 +56,7 @@ class TextureReader {
       missing_ = "the corner " + bare_ + " of a face has no texture coordinates; unwrap all of the mesh";
       missing_offset_ = offset;
     }
-    polygons_.push_back(std::move(corners));
+    polygons.push_back(std::move(corners));
     offsets_.push_back(offset);
   }
 
@@ -70,7 +70,7 @@ class TextureReader {
       return 0;
     }
     const long long index = scan_.leading_integer("a texture vertex number");
-    const auto count = static_cast<long long>(points_.size() / 2);
+    const auto count = static_cast<long long>(points.size() / 2);
     if (index == 0 || index < -count || index > std::numeric_limits<int>::max()) refuse_index(begin, index);
     scan_.word();
     return static_cast<int>(index > 0 ? index - 1 : count + index);
@@ -78,9 +78,9 @@ class TextureReader {
 
   // They may follow the face that names them.
   void check_indices() const {
-    const auto count = static_cast<int>(points_.size() / 2);
-    for (size_t p = 0; p < polygons_.size(); ++p) {
-      const int last = *std::max_element(polygons_[p].begin(), polygons_[p].end());
+    const auto count = static_cast<int>(points.size() / 2);
+    for (size_t p = 0; p < polygons.size(); ++p) {
+      const int last = *std::max_element(polygons[p].begin(), polygons[p].end());
       if (last >= count) refuse_index(offsets_[p], last + 1LL);
     }
   }
@@ -88,7 +88,7 @@ class TextureReader {
   [[noreturn]] void refuse_index(size_t offset, long long index) const {
     refuse(input_, offset,
            "a face names texture coordinates " + std::to_string(index) + ", but the file has " +
-               std::to_string(points_.size() / 2) + "; mend the face or export the mesh again");
+               std::to_string(points.size() / 2) + "; mend the face or export the mesh again");
   }
 
   const Input& input_;
@@ -111,15 +111,15 @@ TextureCoordinates read_texture_coordinates(const MeshFile& file) {
   TextureReader reader(input);
   reader.read();
   TextureCoordinates result;
-  const auto count = static_cast<Eigen::Index>(reader.points_.size() / 2);
-  result.points = Eigen::Map<decltype(result.points)>(reader.points_.data(), count, 2);
+  const auto count = static_cast<Eigen::Index>(reader.points.size() / 2);
+  result.points = Eigen::Map<decltype(result.points)>(reader.points.data(), count, 2);
   result.triangles.resize(file.mesh.triangles.rows(), 3);
   for (Eigen::Index t = 0; t < result.triangles.rows(); ++t) {
     const auto p = static_cast<size_t>(file.triangle_polygons[static_cast<size_t>(t)]);
     const std::vector<int>& polygon = file.polygons[p];
     for (int k = 0; k < 3; ++k) {
       const auto at = std::find(polygon.begin(), polygon.end(), file.mesh.triangles(t, k)) - polygon.begin();
-      result.triangles(t, k) = reader.polygons_[p][static_cast<size_t>(at)];
+      result.triangles(t, k) = reader.polygons[p][static_cast<size_t>(at)];
     }
   }
   return result;

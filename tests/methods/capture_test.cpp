@@ -55,11 +55,13 @@ NormalPicture discs(int height) {
   });
 }
 
+Positions seen(const SphereMap& map, const Positions& directions) { return on_sphere(map, directions); }
+
 /// Degrees, the largest between what the capture says of directions and what is expected.
 template <typename Expected>
 double farthest(const SphereMap& map, const Expected& expected) {
   const Positions directions = sphere(1, 4).positions;
-  const Positions normals = on_sphere(map, directions);
+  const Positions normals = seen(map, directions);
   double most = 0;
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {
     const Vector3d due = expected(Vector3d(directions.row(i).transpose()));
@@ -70,8 +72,8 @@ double farthest(const SphereMap& map, const Expected& expected) {
 
 Vector3d itself(const Vector3d& direction) { return direction; }
 
-Vector3d seen(const SphereMap& map, const Vector3d& direction) {
-  return on_sphere(map, Positions(direction.transpose())).row(0).transpose();
+Vector3d seen_at(const SphereMap& map, const Vector3d& direction) {
+  return seen(map, Positions(direction.transpose())).row(0).transpose();
 }
 
 template <typename Call>
@@ -105,11 +107,11 @@ TEST(NormalCapture, HasItsAxesWhereTheLayoutSays) {
                                                  return std::abs(x - 32) < 16 ? d : c;
                                                }),
                                        equirectangular);
-  EXPECT_LT((seen(map, Vector3d::UnitY()) - Vector3d::UnitX()).norm(), 1e-6);
-  EXPECT_LT((seen(map, Vector3d::UnitZ()) - a).norm(), 1e-6);
-  EXPECT_LT((seen(map, Vector3d::UnitX()) - b).norm(), 1e-6);
-  EXPECT_LT((seen(map, -Vector3d::UnitZ()) - c).norm(), 1e-6);
-  EXPECT_LT((seen(map, -Vector3d::UnitX()) - d).norm(), 1e-6);
+  EXPECT_LT((seen_at(map, Vector3d::UnitY()) - Vector3d::UnitX()).norm(), 1e-6);
+  EXPECT_LT((seen_at(map, Vector3d::UnitZ()) - a).norm(), 1e-6);
+  EXPECT_LT((seen_at(map, Vector3d::UnitX()) - b).norm(), 1e-6);
+  EXPECT_LT((seen_at(map, -Vector3d::UnitZ()) - c).norm(), 1e-6);
+  EXPECT_LT((seen_at(map, -Vector3d::UnitX()) - d).norm(), 1e-6);
 }
 
 TEST(NormalCapture, SmallGapsAreFilledFromAround) {
