@@ -61,7 +61,7 @@ Targets to(const StylizePlan& plan, const SphereMap& style) {
 
 Targets to(const StylizePlan& plan, const Developable& style) {
   const auto find = [&](const Positions& positions) {
-    Positions of_triangles = developable_normals(plan, style, positions);
+    const Positions of_triangles = developable_normals(plan, style, positions);
     if (plan.of_triangles()) return of_triangles;
     const Eigen::VectorXd areas = area_vectors(positions, plan.mesh.triangles).rowwise().norm();
     return normalised(sums_around(plan, areas.asDiagonal() * of_triangles));
