@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "compare_picture.h"
 #include "failure.h"
 #include "gesture_options.h"
 #include "interrupt.h"
 #include "options.h"
-#include "picture.h"
 #include "progress_bar.h"
 #include "report_json.h"
 #include "straight.h"
@@ -25,7 +25,7 @@ namespace {
 struct CompareJob {
   std::string rest;
   std::vector<std::string> edits;
-  std::string json, faces, straight = "auto";
+  std::string json, faces, straight = "auto", heat = "normals";
   double crease_angle = 145;
   StraightFinding finding;
   GestureOptions gesture;
@@ -38,10 +38,6 @@ struct Measured {
   std::vector<std::string> warnings;
   Comparison changes;
 };
-
-bool asks_for_handles(const GestureOptions& gesture) {
-  return !gesture.gesture.empty() || !gesture.pins.empty() || !gesture.moves.empty();
-}
 
 bool is_mesh_file(const std::filesystem::path& path) {
   try {
@@ -80,15 +76,10 @@ void open_folders(CompareJob& job) {
 void check_job(const CompareJob& job) {
   check_finding(job.straight, job.finding);
   if (!job.json.empty()) check_can_be_written(job.json, "--json");
+  check_different({{"--picture", job.picture.path}, {"--faces", job.faces}, {"--json", job.json}});
   check(job.picture);
-  if (!job.picture.path.empty() && job.picture.path == job.json) {
-    throw WrongUsage(fmt::format("--picture and --json both name {}: give them different files", job.json));
-  }
   if (job.faces.empty()) return;
   if (job.edits.size() > 1) throw WrongUsage("--faces: one edit's numbers go into a file: name one edit");
-  if (job.faces == job.json) {
-    throw WrongUsage(fmt::format("--faces and --json both name {}: give them different files", job.faces));
-  }
   if (!job.faces.ends_with(".ply")) throw WrongUsage(fmt::format("--faces {}: name a .ply file", job.faces));
   check_can_be_written(job.faces, "--faces");
 }
@@ -229,7 +220,7 @@ Image picture(const CompareJob& job, const Mesh& rest, const std::vector<Measure
   std::vector<PictureEdit> edits;
   edits.reserve(measured.size());
   for (const Measured& edit : measured) edits.push_back({edit.path, edit.positions, edit.changes});
-  return picture_of(job.picture, job.rest, rest, edits, gesture, common);
+  return picture_of(job.picture, job.heat, job.rest, rest, edits, gesture, common);
 }
 
 void run_compare(CompareJob job, const CommonOptions& common) {
@@ -268,7 +259,10 @@ Command compare_command(CLI::App& program, const CommonOptions& common) {
           ->type_name("auto|none|FILE");
   add_finding_options(*app, job->finding, *straight);
   add_gesture_options(*app, job->gesture);
-  add_picture_options(*app, job->picture);
+  CLI::Option* picture =
+      add_picture_option(*app, job->picture, "The rest and its edits side by side, with a heat map on the edits");
+  add_heat_option(*app, job->heat, *picture);
+  for (CLI::Option* option : add_view_options(*app, job->picture)) option->needs(picture);
   return {app, [job, &common] { run_compare(*job, common); }};
 }
 

@@ -79,6 +79,10 @@ Gesture read_gesture(const std::string& text, const Positions& rest) {
 
 }  // namespace
 
+bool asks_for_handles(const GestureOptions& options) {
+  return !options.gesture.empty() || !options.pins.empty() || !options.moves.empty();
+}
+
 void add_gesture_options(CLI::App& app, GestureOptions& options) {
   const std::string group = "Handles";
   app.add_option("--gesture", options.gesture, "A gesture of a .deform file; LABEL where it holds several")

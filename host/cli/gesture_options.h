@@ -15,6 +15,8 @@ struct GestureOptions {
   std::vector<std::string> moves;  ///< SELECT=dx,dy,dz
 };
 
+bool asks_for_handles(const GestureOptions& options);
+
 void add_gesture_options(CLI::App& app, GestureOptions& options);
 
 /// The options understood as far as that goes without the mesh.

@@ -102,4 +102,14 @@ void check_can_be_written(const std::filesystem::path& path, const char* option)
   }
 }
 
+void check_different(const std::vector<Output>& outputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    for (size_t j = i + 1; j < outputs.size(); ++j) {
+      if (outputs[i].path.empty() || outputs[i].path != outputs[j].path) continue;
+      throw WrongUsage(fmt::format("{} and {} both name {}: give them different files", outputs[i].option,
+                                   outputs[j].option, outputs[i].path));
+    }
+  }
+}
+
 }  // namespace swage::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace swage::cli {
 
@@ -27,6 +28,7 @@ struct Command {
 };
 
 Command reshape_command(CLI::App& program, const CommonOptions& common);
+Command stylize_command(CLI::App& program, const CommonOptions& common);
 Command info_command(CLI::App& program, const CommonOptions& common);
 Command compare_command(CLI::App& program, const CommonOptions& common);
 Command demo_command(CLI::App& program, const CommonOptions& common);
@@ -47,5 +49,14 @@ void write_stdout(const std::string& text);
 
 /// Throws WrongUsage where nothing can be written to `path`: a missing folder, or a folder itself.
 void check_can_be_written(const std::filesystem::path& path, const char* option);
+
+/// An option that names a file to write, which is empty where it is not given.
+struct Output {
+  const char* option;
+  const std::string& path;
+};
+
+/// Throws WrongUsage where two name one file.
+void check_different(const std::vector<Output>& outputs);
 
 }  // namespace swage::cli

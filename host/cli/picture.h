@@ -1,41 +1,39 @@
-// Pictures of a mesh and its edits, side by side.
+// Pictures: where they go, and from where they are seen.
 #pragma once
 
 #include <CLI/App.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "options.h"
-#include "swage/compare.h"
 #include "swage/render.h"
 
 namespace swage::cli {
 
 struct PictureOptions {
   std::string path;  ///< Empty for no picture.
-  std::string heat = "normals";
   std::string view;  ///< X,Y,Z; empty for the automatic one.
   std::string up = "y";
   std::string size = "1600x900";
 };
 
-/// --picture and what goes with it.
-void add_picture_options(CLI::App& app, PictureOptions& options);
+/// --picture.
+CLI::Option* add_picture_option(CLI::App& app, PictureOptions& options, const std::string& help);
 
-/// Throws WrongUsage where an option is not understood or nothing can be written to the path, and Unavailable where
-/// this build makes no pictures.
-void check(const PictureOptions& options);
+/// --view, --up and --size.
+std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options);
 
-struct PictureEdit {
-  const std::string& path;
-  const Positions& positions;
-  const Comparison& changes;
-};
+/// Throws WrongUsage where an option is not understood or nothing can be written to the path, which the `option` names,
+/// and Unavailable where this build makes no pictures.
+void check(const PictureOptions& options, const char* option = "--picture");
 
-/// The rest with handles and arrows, then the edits with what changed as colours, all on one scale. Throws Interrupted.
-Image picture_of(const PictureOptions& options, const std::string& rest_path, const Mesh& rest,
-                 const std::vector<PictureEdit>& edits, const std::optional<Gesture>& gesture,
-                 const CommonOptions& common);
+/// Throws WrongUsage.
+RenderOptions render_options_of(const PictureOptions& options);
+
+/// The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten: an end for a colour bar.
+double rounded_up(double value);
+
+/// With a progress bar. Throws Interrupted.
+Image drawn(const std::vector<Panel>& panels, const RenderOptions& options, const CommonOptions& common);
 
 }  // namespace swage::cli

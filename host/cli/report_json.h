@@ -1,4 +1,4 @@
-// Reports as JSON.
+// Reports as JSON, piece by piece.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "reshape.h"
+#include "swage/backend.h"
+#include "swage/handles.h"
+#include "swage/report.h"
 
 namespace swage::cli {
 
@@ -26,8 +28,14 @@ struct RunSeconds {
   double read = 0, precompute = 0, solve = 0, write = 0, total = 0;
 };
 
-Json report_json(const ReshapeJob& job, const MeshFile& file, const Gesture& gesture, const ReshapeResult& result,
-                 const Backend& backend, const RunSeconds& seconds);
+/// What ran on what: the report's first lines.
+Json run_json(const char* command, const std::string& input, const Mesh& mesh, const std::string& method);
+void add_backend(Json& json, const Backend& backend);
+void add_solve(Json& json, const Report& report, std::vector<std::string>& warnings);
+/// How far handles were missed, normals turned, and what turned over or crosses.
+void add_changes(Json& json, const Mesh& rest, const Gesture& gesture, const Positions& positions,
+                 std::vector<std::string>& warnings);
+void add_costs(Json& json, const Report& report, const Backend& backend, const RunSeconds& seconds);
 
 inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 

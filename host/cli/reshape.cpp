@@ -4,14 +4,13 @@
 
 #include <memory>
 #include <numbers>
-#include <sstream>
+#include <utility>
 
 #include "backend_choice.h"
 #include "deform.h"
 #include "failure.h"
 #include "interrupt.h"
-#include "progress_bar.h"
-#include "report_json.h"
+#include "reshape_json.h"
 #include "swage/error.h"
 
 namespace swage::cli {
@@ -51,55 +50,16 @@ ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const Bac
   return options;
 }
 
-/// Prepares and solves, by Reshape or Deform.
-template <class Plan>
-auto timed(Plan plan, const Gesture& gesture, const ProgressFn& progress, RunSeconds& seconds) {
-  const Stopwatch precompute;
-  plan.prepare(progress);
-  seconds.precompute = precompute.seconds();
-  stop_if_interrupted();
-  const Stopwatch solve;
-  auto result = plan.solve(gesture, progress);
-  seconds.solve = solve.seconds();
-  stop_if_interrupted();
-  return result;
-}
-
 ReshapeResult solve(const ReshapeJob& job, const Mesh& mesh, const Gesture& gesture, const ReshapeOptions& options,
                     const CommonOptions& common, RunSeconds& seconds) {
-  ProgressBar bar(!common.quiet && !common.verbose);
-  const ProgressFn progress = [&](const Progress& now) {
-    bar.show(now);
-    spdlog::debug("{} {}: energy {}", now.stage, now.pass, now.energy);
-    return !interrupted();
-  };
-  if (const std::optional<DeformMethod> method = deform_method(job.method)) {
-    const DeformOptions own = deform_options(job, *method, options);
-    return as_reshaped(timed(Deform(mesh.positions, mesh.triangles, own), gesture, progress, seconds));
-  }
-  return timed(Reshape(mesh.positions, mesh.triangles, options), gesture, progress, seconds);
-}
-
-/// A device that `auto` chose may turn out too small.
-ReshapeResult solve_or_fall_back(const ReshapeJob& job, const Mesh& mesh, const Gesture& gesture,
-                                 ReshapeOptions& options, const CommonOptions& common, RunSeconds& seconds,
-                                 const BackendChoice& choice) {
-  try {
-    return solve(job, mesh, gesture, options, common, seconds);
-  } catch (const Unavailable& reason) {
-    if (!choice.is_auto() || options.backend->name() == "cpu") throw;
-    spdlog::warn("the cpu does the local steps: {}", reason.what());
-  }
-  options.backend = cpu_backend();
-  return solve(job, mesh, gesture, options, common, seconds);
-}
-
-void write_result(const std::string& path, const ReshapeJob& job, const MeshFile& file, const Positions& positions) {
-  if (path.empty()) return;
-  if (path != kStdout) return write_mesh(path, file, positions);
-  std::ostringstream text;
-  write_mesh(text, format_of(job.mesh), file, positions);
-  write_stdout(text.str());
+  return with_progress(common, [&](const ProgressFn& progress) {
+    const auto solved = [&](auto& plan) { return plan.solve(gesture, progress); };
+    if (const std::optional<DeformMethod> method = deform_method(job.method)) {
+      Deform deform(mesh.positions, mesh.triangles, deform_options(job, *method, options));
+      return as_reshaped(timed(std::move(deform), progress, seconds, solved));
+    }
+    return timed(Reshape(mesh.positions, mesh.triangles, options), progress, seconds, solved);
+  });
 }
 
 /// That of a stand-in is of its vertices.
@@ -122,36 +82,15 @@ void check_method(const ReshapeJob& job) {
   check_finding(job.straight, job.finding);
 }
 
-/// What is left of a file whose faces are damaged is seldom the surface that was meant.
-void check_faces(const MeshFile& file) {
-  if (file.skipped_face.empty()) return;
-  throw InvalidInput(
-      fmt::format("{}: {}: a face has fewer than three vertices: mend or remove such faces, or export the mesh again",
-                  file.path.string(), file.skipped_face));
-}
-
 void check_outputs(const ReshapeJob& job) {
   if (job.output.empty() && job.json.empty()) {
     throw WrongUsage("nothing to write: name the result mesh with -o FILE or the report with --json FILE");
   }
-  if (!job.output.empty() && job.output == job.json) {
-    throw WrongUsage(fmt::format("-o and --json both name {}: give them different files", job.output));
-  }
-  if (!job.json.empty()) check_can_be_written(job.json, "--json");
-  if (job.output.empty()) return;
-  check_can_be_written(job.output, "-o");
-  if (job.output == kStdout) return;
-  try {
-    format_of(job.output);
-  } catch (const InvalidInput& e) {
-    throw WrongUsage(std::string("-o: ") + e.what());
-  }
+  check_outputs(static_cast<const EditFiles&>(job));
 }
 
 void add_reshape_options(CLI::App& app, ReshapeJob& job) {
-  app.add_option("MESH", job.mesh, "The mesh to reshape: .obj .ply .stl .off")->required();
-  app.add_option("-o,--output", job.output, "Result mesh, format by extension; - for stdout")->type_name("FILE");
-  app.add_option("--json", job.json, "Report of the run; - for stdout")->type_name("FILE");
+  add_edit_files(app, job, "The mesh to reshape: .obj .ply .stl .off");
   const std::string group = "Method";
   app.add_option(
          "--method", job.method,
@@ -204,9 +143,7 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   const BackendChoice choice(common);
   RunSeconds seconds;
   const Stopwatch total, read;
-  const MeshFile file = read_mesh(job.mesh);
-  check_faces(file);
-  for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
+  const MeshFile file = read_input(job.mesh);
   const Gesture gesture = recipe.on(file);
   check(gesture, file.mesh.positions, file.mesh.triangles);
   ReshapeOptions options = solver_options(job, file.mesh, choice);
@@ -215,17 +152,16 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   seconds.read = read.seconds();
   stop_if_interrupted();
 
-  ReshapeResult result = solve_or_fall_back(job, file.mesh, gesture, options, common, seconds, choice);
+  ReshapeResult result = solve_or_fall_back(choice, options.backend,
+                                            [&] { return solve(job, file.mesh, gesture, options, common, seconds); });
   for (const std::string& warning : result.report.warnings) spdlog::warn("{}", warning);
 
   const Stopwatch write;
   write_scaffold(job.scaffold_mesh, result);
-  write_result(job.output, job, file, result.positions);
+  write_result(job, file, result.positions);
   seconds.write = write.seconds();
   seconds.total = total.seconds();
-  Json report = report_json(job, file, gesture, result, *options.backend, seconds);
-  report["straight_chains"] = result.straight_chains;
-  write_json(job.json, report);
+  write_json(job.json, report_json(job, file, gesture, result, *options.backend, seconds));
   spdlog::info("{}: {} passes ({}), {:.2f} s", job.mesh, result.report.passes, to_string(result.report.stop),
                seconds.total);
   return result;

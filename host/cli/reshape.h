@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "edit.h"
 #include "gesture_options.h"
 #include "options.h"
 #include "straight.h"
@@ -11,10 +12,7 @@
 
 namespace swage::cli {
 
-struct ReshapeJob {
-  std::string mesh;
-  std::string output;  ///< Result mesh; empty for none, "-" for stdout.
-  std::string json;    ///< Report; likewise.
+struct ReshapeJob : EditFiles {
   std::string method = "slippage";
   std::string solver = "steady";
   std::string linear_solver = "auto";

@@ -123,6 +123,14 @@ Positions Given::back(const Positions& positions, const Transforms& transforms) 
   return given;
 }
 
+Positions Given::back_vertices(const Positions& rows) const {
+  Positions given = Positions::Zero(mesh_.positions.rows(), 3);
+  for (int v = 0; v < given.rows(); ++v) {
+    if (!is_loose(v)) given.row(v) = rows.row(vertex_of_[static_cast<size_t>(v)]);
+  }
+  return given;
+}
+
 Tetrahedra Given::back(const Tetrahedra& tetrahedra) const {
   const auto surface = static_cast<int>(vertices_.size()), first_own = static_cast<int>(mesh_.positions.rows());
   return tetrahedra.unaryExpr([&](int v) { return v < surface ? vertex(v) : first_own + v - surface; });

@@ -28,6 +28,8 @@ class Given {
   /// Vertices of no triangle go by the transforms of the surface's triangles. Those at one place are there to a
   /// tolerance only.
   Positions back(const Positions& positions, const Transforms& transforms) const;
+  /// A row a vertex, of those of no triangle zero.
+  Positions back_vertices(const Positions& rows) const;
   /// #T × 9.
   Transforms back(const Transforms& transforms) const;
   /// Those of a scaffold, whose own points follow the surface's vertices, and then the mesh's as given.

@@ -15,7 +15,7 @@ bool repeats_vertex(const int* corners) {
   return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
 }
 
-Triangles triangulated(const Input& input, Draft& draft, const Positions& positions) {
+Triangles triangulated(const Input& input, Draft& draft, const Positions& positions, std::vector<int>& of_polygon) {
   std::vector<int> corners;
   std::vector<int> cut;
   for (size_t p = 0; p < draft.polygons.size(); ++p) {
@@ -30,6 +30,7 @@ Triangles triangulated(const Input& input, Draft& draft, const Positions& positi
         draft.warnings.add(input, draft.polygon_offsets[p], "a triangle that repeats a vertex is left out");
       } else {
         corners.insert(corners.end(), &cut[t], &cut[t] + 3);
+        of_polygon.push_back(static_cast<int>(p));
       }
     }
   }
@@ -116,7 +117,7 @@ void use_vertex_normals(Draft& draft) {
 MeshFile finish(Input&& input, Draft&& draft) {
   MeshFile file;
   file.mesh.positions = Eigen::Map<const Positions>(draft.coordinates.data(), draft.vertex_count(), 3);
-  file.mesh.triangles = triangulated(input, draft, file.mesh.positions);
+  file.mesh.triangles = triangulated(input, draft, file.mesh.positions, file.triangle_polygons);
   file.skipped_face = std::move(draft.skipped_face);
   file.warnings = draft.warnings.told();
   file.path = input.path;

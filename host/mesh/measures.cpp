@@ -45,8 +45,8 @@ Positions unit_normals(const Positions& positions, const Triangles& triangles) {
   Positions normals = area_vectors(positions, triangles);
 #pragma omp parallel for schedule(static) if (normals.rows() > kWorthThreads)
   for (Eigen::Index t = 0; t < normals.rows(); ++t) {
-    const double length = normals.row(t).norm();
-    if (length > 0) normals.row(t) /= length;
+    auto normal = normals.row(t);
+    normal.normalize();  // All at once, those of length 0 would be NaN.
   }
   return normals;
 }

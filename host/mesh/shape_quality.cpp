@@ -37,19 +37,23 @@ ShapeQuality shape_quality(const Positions& positions, const Triangles& triangle
   ShapeQuality quality;
   quality.triangles = static_cast<int>(triangles.rows());
   if (quality.triangles == 0) return quality;
-  double area = 0, sharp = 0, length = 0, longest = 0;
+  double area = 0, sharp = 0, length = 0, longest = 0, mean_shape = 0;
   std::vector<double> angles;
   for (const auto& triangle : triangles.rowwise()) {
     const Shape shape = shape_of(positions, triangle);
     area += shape.area;
     if (shape.smallest_angle < 10 * kDegree) sharp += shape.area;
     angles.push_back(shape.smallest_angle);
-    for (const double side : shape.sides) length += side, longest = std::max(longest, side);
+    double squares = 0;
+    for (const double side : shape.sides) length += side, longest = std::max(longest, side), squares += side * side;
+    if (squares > 0) mean_shape += 4 * std::numbers::sqrt3 * shape.area / squares / quality.triangles;
   }
   const double mean = length / (3.0 * quality.triangles);
   const auto low = angles.begin() + quality.triangles / 20;
   std::nth_element(angles.begin(), low, angles.end());
   quality.low_angle = *low;
+  quality.least_angle = *std::min_element(angles.begin(), angles.end());
+  quality.mean = mean_shape;
   if (area > 0) quality.sharp_area = sharp / area;
   if (mean > 0) quality.longest_over_mean = longest / mean;
   if (mean > 0) quality.mean_over_diagonal = mean / box_diagonal(positions(triangles.reshaped(), Eigen::all));

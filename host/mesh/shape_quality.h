@@ -1,5 +1,5 @@
-// Whether a mesh's triangles suit reshaping: "sufficiently fine connected triangle meshes, with well-shaped triangles
-// and roughly uniform mesh density" (Araújo et al. 2023, section 5).
+// How well triangles are shaped, and whether that suits reshaping: "sufficiently fine connected triangle meshes, with
+// well-shaped triangles and roughly uniform mesh density" (Araújo et al. 2023, section 5).
 #pragma once
 
 #include "swage/mesh.h"
@@ -9,7 +9,9 @@ namespace swage {
 struct ShapeQuality {
   int triangles = 0;
   double sharp_area = 1;          ///< Share of the area in triangles with an angle below 10 degrees.
+  double least_angle = 0;         ///< Of all, radians.
   double low_angle = 0;           ///< 5th percentile of the triangles' smallest angles, radians.
+  double mean = 0;                ///< Of 4 sqrt(3) area / (sum of squared sides): 1 where equilateral.
   double longest_over_mean = 1;   ///< Edge lengths, each edge once a triangle.
   double mean_over_diagonal = 1;  ///< Edge length over the diagonal of the triangles' box.
 };

@@ -1,12 +1,14 @@
 // Stands in for host/render where the build leaves it out.
 #include "swage/error.h"
 #include "swage/render.h"
+#include "swage/style_io.h"
 
 namespace swage {
 namespace {
 
 [[noreturn]] void refuse(const char* function) {
-  throw Unavailable(std::string(function) + ": this build makes no pictures; configure with -DSWAGE_RENDER=ON");
+  throw Unavailable(std::string(function) +
+                    ": this build neither makes nor reads pictures; configure with -DSWAGE_RENDER=ON");
 }
 
 }  // namespace
@@ -27,5 +29,7 @@ View automatic_view(const Mesh&, const std::vector<HandleMark>&, const Eigen::Ve
 std::string png(const Image&) { refuse("png"); }
 
 void write_png(const std::filesystem::path&, const Image&) { refuse("write_png"); }
+
+NormalPicture read_normal_picture(const std::filesystem::path&) { refuse("read_normal_picture"); }
 
 }  // namespace swage

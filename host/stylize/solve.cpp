@@ -48,7 +48,8 @@ void tell(const StylizePlan& plan, const HeldLaplacian& held, Report& report) {
 }
 
 StylizeResult cancelled(const StylizePlan& plan) {
-  StylizeResult result{given_mesh(plan).positions, {}, {}};
+  StylizeResult result;
+  result.positions = given_mesh(plan).positions;
   result.report.stop = Termination::cancelled;
   return result;
 }
@@ -64,6 +65,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   StylizeResult result;
   Positions positions = plan.elements.pairs.vertices;
   Positions target_normals = targets.find(positions);
+  result.first_targets = as_given(plan, target_normals);
   StylizeFit fitted = unmoved(plan.system.element_count());
   std::optional<KeepSize> keep_size;
   if (steps->similarity) keep_size.emplace(plan, points);
@@ -114,6 +116,7 @@ StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambd
   result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
 
   if (result.report.passes == 0) return cancelled(plan);
+  result.last_targets = as_given(plan, target_normals);
   const StylizeTerms& last = result.passes.back();
   result.report.energy_by_term = {{"shape", last.shape}, {"normals", lambda * last.normals}};
   const Positions solved = plan.box.back(positions);

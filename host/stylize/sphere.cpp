@@ -15,6 +15,8 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kSeam = 1e-9;
+
 Matrix3d corners(const Positions& directions, const Triangles& triangles, int t) {
   Matrix3d columns;
   for (int k = 0; k < 3; ++k) columns.col(k) = directions.row(triangles(t, k)).transpose();
@@ -39,6 +41,9 @@ class SphereTriangles {
   Eigen::RowVector3d normal(const Vector3d& unit) const {
     Eigen::AlignedBox3d ray(inner_radius_ * unit);
     ray.extend(unit);
+    // Seams may be open by rounding.
+    ray.min().array() -= kSeam;
+    ray.max().array() += kSeam;
     int met = -1;
     double best = -std::numeric_limits<double>::infinity();
     Vector3d at = Vector3d::Zero();

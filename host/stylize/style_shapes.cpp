@@ -6,10 +6,8 @@
 #include <map>
 #include <numbers>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include "measures.h"
 #include "swage/error.h"
 #include "swage/style.h"
 
@@ -112,26 +110,6 @@ RowVector3d rounded(const RowVector3d& point, double radius) {
 }
 
 }  // namespace
-
-ClosestNormals closest_normals(const Mesh& style, double tolerance) {
-  check(style.positions, style.triangles);
-  const Positions all = unit_normals(style.positions, style.triangles);
-  const double least_cosine = std::cos(tolerance * std::numbers::pi / 180);
-  std::vector<RowVector3d> distinct;
-  for (const auto& normal : all.rowwise()) {
-    const bool is_there = std::any_of(distinct.begin(), distinct.end(),
-                                      [&](const RowVector3d& other) { return other.dot(normal) >= least_cosine; });
-    if (!is_there && !normal.isZero(0)) distinct.push_back(normal);
-  }
-  if (distinct.empty()) throw InvalidInput("closest_normals: style: no triangle has an area");
-  // Of several that are as near, the first is taken: the authors' program has them in this order.
-  std::sort(distinct.begin(), distinct.end(), [](const RowVector3d& a, const RowVector3d& b) {
-    return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);
-  });
-  ClosestNormals result{Positions(static_cast<Eigen::Index>(distinct.size()), 3)};
-  for (size_t i = 0; i < distinct.size(); ++i) result.normals.row(static_cast<Eigen::Index>(i)) = distinct[i];
-  return result;
-}
 
 Mesh style_shape(StyleShape shape) {
   // A shape's faces look to where its dual's vertices are.

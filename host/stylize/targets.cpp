@@ -20,11 +20,21 @@ Targets to(const StylizePlan& plan, const ClosestNormals& style) {
   return {find, style.dynamic};
 }
 
+/// #T of the surface that is solved: -1 of triangles that the caller winds the other way, else 1.
+Eigen::VectorXd sides(const StylizePlan& plan) {
+  const Mesh& mesh = plan.given->mesh();
+  const Triangles triangles = mesh.triangles(plan.given->triangles(), Eigen::all);
+  const Positions here = area_vectors(plan.mesh.positions, plan.mesh.triangles);
+  const Eigen::VectorXd along = here.cwiseProduct(area_vectors(mesh.positions, triangles)).rowwise().sum();
+  return along.unaryExpr([](double x) { return x < 0 ? -1.0 : 1.0; });
+}
+
 /// The given's, of the elements of the surface that is solved.
 Positions of_elements(const StylizePlan& plan, const GivenNormals& style) {
   Positions normals = normalised(style.normals);
   if (plan.given) {
     normals = Positions(normals(style.of_triangles ? plan.given->triangles() : plan.given->vertices(), Eigen::all));
+    if (style.of_triangles) normals.array().colwise() *= sides(plan).array();
   }
   if (style.of_triangles == plan.of_triangles()) return normals;
   const Triangles& triangles = plan.mesh.triangles;
@@ -60,6 +70,15 @@ Targets to(const StylizePlan& plan, const Developable& style) {
 }
 
 }  // namespace
+
+GivenNormals as_given(const StylizePlan& plan, const Positions& targets) {
+  if (!plan.given) return {targets, plan.of_triangles()};
+  const Mesh& mesh = plan.given->mesh();
+  if (!plan.of_triangles()) return {plan.given->back_vertices(targets), false};
+  GivenNormals given{Positions::Zero(mesh.triangles.rows(), 3), true};
+  given.normals(plan.given->triangles(), Eigen::all) = (targets.array().colwise() * sides(plan).array()).matrix();
+  return given;
+}
 
 Targets targets_of(const StylizePlan& plan, const Style& style) {
   return std::visit([&](const auto& one) { return to(plan, one); }, style);

@@ -16,6 +16,9 @@ struct Targets {
 /// Borrows the plan and the style. For one thread.
 Targets targets_of(const StylizePlan& plan, const Style& style);
 
+/// Of the mesh as given.
+GivenNormals as_given(const StylizePlan& plan, const Positions& targets);
+
 /// How much normals around vertices spread in the second direction, of all three, mean over the surface at rest. It
 /// falls with the square of the triangles' size.
 double mean_second_spread(const StylizePlan& plan, NormalFitStep& step);

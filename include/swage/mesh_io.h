@@ -23,6 +23,7 @@ struct MeshSource;  ///< The bytes of a file and where in them each coordinate s
 struct MeshFile {
   Mesh mesh;                                       ///< As solved: polygons triangulated, STL corners welded.
   std::vector<std::vector<int>> polygons;          ///< Faces as the file has them, vertex indices from 0.
+  std::vector<int> triangle_polygons;              ///< Of each triangle the polygon that it is a part of.
   std::map<std::string, std::vector<int>> groups;  ///< OBJ groups: their vertices, ascending.
   std::string skipped_face;  ///< Place of the first face with fewer than three vertices, as "line 5"; empty for none.
   std::vector<std::string> warnings;  ///< What was skipped or mended, with its line.
@@ -38,6 +39,17 @@ struct MeshFile {
 /// Throws UnreadableFile, with the line or byte and a remedy, where the file is missing, empty, truncated or not of
 /// its format, an index is out of range, a coordinate is NaN, infinite or beyond 1e12, or no triangle remains.
 MeshFile read_mesh(const std::filesystem::path& path);
+
+/// Where triangles lie in a picture: libigl's TC and FTC.
+struct TextureCoordinates {
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points;  ///< #C × 2: u to the right, v upwards; the picture
+                                                                     ///< is [0, 1]², and again beyond.
+  Triangles triangles;  ///< #T × 3: points of their corners.
+};
+
+/// The texture coordinates of an OBJ. Throws UnreadableFile where it is another format or has none, and, naming the
+/// line, where a corner of a face lacks them or names some that are not there, or one is not finite.
+TextureCoordinates read_texture_coordinates(const MeshFile& file);
 
 /// Writes `file` with other positions (#V × 3, file.mesh's order). Into the format it came from, only coordinates
 /// and normals change: every other byte is kept, and so are the coordinates of vertices that did not move. Into

@@ -67,6 +67,10 @@ struct StylizeResult {
   Positions positions;               ///< #V × 3, mesh units, the input's order.
   std::vector<StylizeTerms> passes;  ///< After each.
   Report report;                     ///< Its energies are shape + lambda normals.
+  /// Where normals were to point at first, and in the last pass: those of triangles by farap, else of vertices, of the
+  /// input, whose triangles' winding they follow. Unit; zero where any direction does, and of what is not solved:
+  /// triangles that are there twice or have no area, vertices of none. Empty where no pass was made.
+  GivenNormals first_targets, last_targets;
 };
 
 struct StylizePlan;  ///< What is kept of a mesh between solves.

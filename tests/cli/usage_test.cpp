@@ -57,12 +57,12 @@ class Usage : public testing::Test {
 TEST_F(Usage, WithoutArgumentsHelpIsPrinted) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, 2);
-  for (const char* command : {"reshape", "info", "demo"}) EXPECT_THAT(outcome.err, HasSubstr(command));
+  for (const char* command : {"reshape", "stylize", "info", "demo"}) EXPECT_THAT(outcome.err, HasSubstr(command));
   EXPECT_EQ(outcome.out, "");
 }
 
 TEST_F(Usage, HelpAndVersionOnEveryLevel) {
-  for (const Arguments& level : {Arguments{}, {"reshape"}, {"info"}, {"demo"}}) {
+  for (const Arguments& level : {Arguments{}, {"reshape"}, {"stylize"}, {"info"}, {"demo"}}) {
     Arguments help = level, version = level;
     help.push_back("--help");
     version.push_back("--version");
@@ -89,6 +89,7 @@ TEST_F(Usage, WrongUsageExitsWith2) {
   const std::vector<Refusal> refusals = {
       {{"fold", "@/box.obj"}, "fold"},
       {{"reshape"}, "MESH"},
+      {{"stylize", "--style", "cube"}, "MESH"},
       {{"info"}, "MESH"},
       {{"reshape", "@/box.obj", "--sideways"}, "--sideways"},
       {{"reshape", "@/box.obj", "@/box.obj", "--pin", "0", "-o", "@/r.obj"}, "box.obj"},

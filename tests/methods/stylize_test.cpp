@@ -338,6 +338,27 @@ TEST(StyleShapes, AreClosedAndHaveTheirFaces) {
   EXPECT_THROW(rounded_cube(0.3, 1), InvalidInput);
 }
 
+TEST(StyleShapes, TrianglesWithoutAreaAreNoFaces) {
+  Mesh cube = style_shape(StyleShape::cube);
+  cube.triangles.row(3) << 1, 1, 2;
+  EXPECT_EQ(closest_normals(cube).normals.rows(), 6);
+}
+
+TEST(StyleShapes, NormalsFartherApartThanTheToleranceAreDistinct) {
+  const Mesh ball = sphere(1, 3);
+  const Positions normals = unit_normals(ball.positions, ball.triangles);
+  for (const double tolerance : {0.0, 1e-3, 3.0, 20.0, 180.0}) {
+    const double least = std::cos(tolerance * std::numbers::pi / 180);
+    Positions kept(0, 3);
+    for (const Eigen::RowVector3d normal : normals.rowwise()) {
+      if (kept.rows() > 0 && (kept * normal.transpose()).maxCoeff() >= least) continue;
+      kept.conservativeResize(kept.rows() + 1, 3);
+      kept.bottomRows(1) = normal;
+    }
+    EXPECT_EQ(closest_normals(ball, tolerance).normals.rows(), kept.rows()) << tolerance;
+  }
+}
+
 TEST(SphereMap, OfASphereIsTheSphere) {
   const SphereMap map = sphere_map(transformed(sphere(1, 3), 7, {3, 2, 1}));
   EXPECT_LT((map.directions - map.normals).rowwise().norm().maxCoeff(), 0.02);

@@ -1,0 +1,55 @@
+#include "edit.h"
+
+#include <sstream>
+
+#include "failure.h"
+#include "options.h"
+
+namespace swage::cli {
+namespace {
+
+/// What is left of a file whose faces are damaged is seldom the surface that was meant.
+void check_faces(const MeshFile& file) {
+  if (file.skipped_face.empty()) return;
+  throw InvalidInput(
+      fmt::format("{}: {}: a face has fewer than three vertices: mend or remove such faces, or export the mesh again",
+                  file.path.string(), file.skipped_face));
+}
+
+}  // namespace
+
+void add_edit_files(CLI::App& app, EditFiles& files, const std::string& mesh_help) {
+  app.add_option("MESH", files.mesh, mesh_help)->required();
+  app.add_option("-o,--output", files.output, "Result mesh, format by extension; - for stdout")->type_name("FILE");
+  app.add_option("--json", files.json, "Report of the run; - for stdout")->type_name("FILE");
+}
+
+void check_outputs(const EditFiles& files) {
+  check_different({{"-o", files.output}, {"--json", files.json}});
+  if (!files.json.empty()) check_can_be_written(files.json, "--json");
+  if (files.output.empty()) return;
+  check_can_be_written(files.output, "-o");
+  if (files.output == kStdout) return;
+  try {
+    format_of(files.output);
+  } catch (const InvalidInput& e) {
+    throw WrongUsage(std::string("-o: ") + e.what());
+  }
+}
+
+MeshFile read_input(const std::string& path) {
+  MeshFile file = read_mesh(path);
+  check_faces(file);
+  for (const std::string& warning : file.warnings) spdlog::warn("{}", warning);
+  return file;
+}
+
+void write_result(const EditFiles& files, const MeshFile& file, const Positions& positions) {
+  if (files.output.empty()) return;
+  if (files.output != kStdout) return write_mesh(files.output, file, positions);
+  std::ostringstream text;
+  write_mesh(text, format_of(files.mesh), file, positions);
+  write_stdout(text.str());
+}
+
+}  // namespace swage::cli

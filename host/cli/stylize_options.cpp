@@ -1,0 +1,145 @@
+// The options of `swage stylize`, and which of them go together.
+#include <vector>
+
+#include "failure.h"
+#include "style_choice.h"
+
+namespace swage::cli {
+namespace {
+
+using CLI::IsMember;
+
+constexpr const char* kStyles = "--style, --capture, --normals, --normal-map or --developable";
+
+CLI::Option* add_text(CLI::App& app, const char* name, std::string& value, const std::string& help, const char* type) {
+  return app.add_option(name, value, help)->group("Style")->type_name(type);
+}
+
+void add_choice(CLI::App& app, const char* name, std::string& value, const std::vector<std::string>& choices,
+                const std::string& help, CLI::Option* of) {
+  app.add_option(name, value, help)->group("Style")->check(IsMember(choices))->needs(of);
+}
+
+/// One of these, the sheet among them, which has styles of its own. The sheet is last.
+std::vector<CLI::Option*> add_styles(CLI::App& app, StylizeJob& job) {
+  std::vector<CLI::Option*> styles;
+  styles.push_back(
+      add_text(app, "--style", job.style, "A shape to look like: a mesh, or one of " + preset_names(), "FILE|PRESET"));
+  add_choice(app, "--target", job.target, {"closest", "sphere"},
+             "How its normals are found: closest: the nearest of its faces'; sphere: the one at the same place once "
+             "the style is blown up to a sphere (closest, sphere for rounded-cube)",
+             styles.back());
+  CLI::Option* const dynamic =
+      app.add_flag("--dynamic", job.dynamic, "The closest are looked up again after each pass, as they are by default")
+          ->group("Style")
+          ->needs(styles.back());
+  app.add_flag("--no-dynamic", job.no_dynamic, "The closest are those of the shape at rest")
+      ->group("Style")
+      ->needs(styles.back())
+      ->excludes(dynamic);
+  styles.push_back(add_text(app, "--capture", job.capture,
+                            "A sphere painted with normals: .png, or .ply with nx, ny, nz of vertices", "FILE"));
+  add_choice(app, "--capture-layout", job.layout, {"equirectangular", "hemispheres"},
+             "How a .png shows the sphere, y up: equirectangular: z in the middle, x right of it; hemispheres: two "
+             "discs, seen from z and from -z (equirectangular)",
+             styles.back());
+  styles.push_back(add_text(app, "--normals", job.normals,
+                            "Normals for the mesh itself: nx, ny, nz of a PLY's vertices or faces", "FILE.ply"));
+  styles.push_back(add_text(app, "--normal-map", job.normal_map,
+                            "Relief from a normal map, by the texture coordinates of an OBJ", "FILE.png"));
+  add_choice(app, "--normal-space", job.normal_space, {"tangent", "object"},
+             "What its colours are: directions along u, v and the normal, or x, y, z (tangent)", styles.back());
+  add_choice(app, "--green", job.green, {"up", "down"},
+             "Whether green is along growing v (OpenGL) or falling v (DirectX), in tangent space (up)", styles.back());
+  styles.push_back(app.add_flag("--developable", job.developable,
+                                "To pieces that unroll without stretching, and creases between them")
+                       ->group("Style"));
+  app.add_option("--tau", job.tau, "The larger, the fewer pieces bend and the more creases (0.005)")
+      ->group("Style")
+      ->check(between(0, 0.5))
+      ->needs(styles.back());
+  styles.push_back(app.add_option("--style-sheet", job.sheet,
+                                  "Instead: a picture of the mesh as cube, octahedron, icosahedron, prism6, "
+                                  "rounded-cube and developable")
+                       ->group("Picture")
+                       ->type_name("FILE.png"));
+  return styles;
+}
+
+void check_written(const StylizeJob& job) {
+  check_outputs(job);
+  check_different({{"--picture", job.picture.path}, {"-o", job.output}, {"--json", job.json}});
+  check(job.picture);
+  PictureOptions sheet = job.picture;
+  sheet.path = job.sheet;
+  check(sheet, "--style-sheet");
+  const PictureOptions usual;
+  const bool has_view = sheet.view != usual.view || sheet.up != usual.up || sheet.size != usual.size;
+  if (has_view && job.picture.path.empty() && job.sheet.empty()) {
+    throw WrongUsage("--view, --up and --size are for pictures: name one with --picture or --style-sheet");
+  }
+  if (job.output.empty() && job.json.empty() && job.picture.path.empty() && job.sheet.empty()) {
+    throw WrongUsage(
+        "nothing to write: name the result mesh with -o FILE, the report with --json FILE or a picture with --picture "
+        "FILE.png");
+  }
+}
+
+}  // namespace
+
+void add_stylize_options(CLI::App& app, StylizeJob& job) {
+  add_edit_files(app, job, "The mesh to stylize: .obj .ply .stl .off");
+  const std::vector<CLI::Option*> styles = add_styles(app, job);
+  for (size_t i = 0; i < styles.size(); ++i) {
+    for (size_t j = i + 1; j < styles.size(); ++j) styles[i]->excludes(styles[j]);
+  }
+  CLI::Option* const sheet = styles.back();
+  const std::string group = "Method";
+  app.add_option("--lambda", job.lambda, "How much the style counts against the shape (1; 1000 for --developable)")
+      ->group(group)
+      ->check(between(0, 1e9));
+  app.add_option("--energy", job.energy,
+                 "What the shape resists with: arap: smoothly; farap: with sharp creases; acap: its details may grow "
+                 "and shrink (arap; farap for --developable)")
+      ->group(group)
+      ->check(IsMember({"arap", "farap", "acap"}));
+  app.add_option("--iterations", job.iterations, "Passes at most (350)")->group(group)->check(between(1, 1e6));
+  add_gesture_options(app, job.gesture);
+  CLI::Option* const picture = add_picture_option(app, job.picture, "The mesh and the result side by side");
+  picture->excludes(sheet);
+  app.add_option("--heat", job.heat, "What the colours tell: how far normals are from their targets, or none (targets)")
+      ->group("Picture")
+      ->check(IsMember({"targets", "none"}))
+      ->needs(picture);
+  add_view_options(app, job.picture);
+  for (const char* name : {"--output", "--json"}) app.get_option(name)->excludes(sheet);
+}
+
+void check_job(const StylizeJob& job) {
+  const bool has_file = !(job.style.empty() && job.capture.empty() && job.normals.empty() && job.normal_map.empty());
+  if (!has_file && !job.developable && job.sheet.empty()) {
+    throw WrongUsage(std::string("nothing to do: name a style with ") + kStyles);
+  }
+  if (!job.style.empty()) check_style_name(job.style);
+  if ((job.dynamic || job.no_dynamic) && method_of(job) == "sphere") {
+    throw WrongUsage("--dynamic and --no-dynamic are for --target closest: targets of --target sphere do not change");
+  }
+  if (!job.layout.empty() && !job.capture.ends_with(".png")) {
+    throw WrongUsage(fmt::format("--capture-layout is for a .png, not for --capture {}: leave it out", job.capture));
+  }
+  if (!job.green.empty() && job.normal_space == "object") {
+    throw WrongUsage("--green is for tangent space, not for --normal-space object: leave one out");
+  }
+  check_written(job);
+}
+
+double lambda_of(const StylizeJob& job) { return job.lambda.value_or(job.developable ? 1000 : 1); }
+
+StylizeEnergy energy_of(const StylizeJob& job) {
+  for (const StylizeEnergy energy : {StylizeEnergy::arap, StylizeEnergy::farap, StylizeEnergy::acap}) {
+    if (job.energy == to_string(energy)) return energy;
+  }
+  return job.developable ? StylizeEnergy::farap : StylizeEnergy::arap;
+}
+
+}  // namespace swage::cli

@@ -1,0 +1,87 @@
+// PNG files whose colours are directions.
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "input.h"
+#include "number.h"
+#include "swage/style_io.h"
+
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb/stb_image.h>
+
+namespace swage {
+namespace {
+
+constexpr unsigned long long kMostPixels = 1ULL << 26;
+constexpr int kHeader = 33;  // Bytes, the width at 16, the height at 20.
+
+struct Free {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+/// -1 to 1. The two values in the middle are both 0: none is there.
+template <typename Channel>
+float coordinate(Channel value) {
+  constexpr int kFull = std::numeric_limits<Channel>::max();
+  const int twice = 2 * value - kFull;
+  return std::abs(twice) == 1 ? 0.0f : static_cast<float>(twice) / static_cast<float>(kFull);
+}
+
+template <typename Channel>
+void convert(const Channel* pixels, NormalPicture& picture) {
+  constexpr int kFull = std::numeric_limits<Channel>::max();
+  const size_t count = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height);
+  picture.normals.assign(3 * count, 0);
+  for (size_t i = 0; i < count; ++i) {
+    const Channel* pixel = pixels + 4 * i;
+    const Eigen::Vector3f normal(coordinate(pixel[0]), coordinate(pixel[1]), coordinate(pixel[2]));
+    const float length = normal.norm();
+    if (2 * pixel[3] < kFull || length < 0.5f || length > 1.5f) continue;
+    Eigen::Map<Eigen::Vector3f>(&picture.normals[3 * i]) = normal;
+  }
+}
+
+}  // namespace
+
+NormalPicture read_normal_picture(const std::filesystem::path& path) {
+  const Input input = slurp(path);
+  if (!input.bytes.starts_with("\x89PNG\r\n\x1A\n")) refuse(input, "is no PNG file; convert the picture to one");
+  if (input.bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
+    refuse(input, "has more than 2^31 bytes; make the picture smaller");
+  }
+  const auto* bytes = reinterpret_cast<const stbi_uc*>(input.bytes.data());
+  const int size = static_cast<int>(input.bytes.size());
+  if (size < kHeader) refuse(input, "is a damaged PNG file (it ends in the header); export it again");
+  const auto width = load<std::uint32_t>(&input.bytes[16], true), height = load<std::uint32_t>(&input.bytes[20], true);
+  if (1ULL * width * height > kMostPixels) {
+    refuse(input, "has " + std::to_string(width) + " x " + std::to_string(height) +
+                      " pixels; make it smaller, of 2^26 at most, such as 8192 x 8192");
+  }
+  NormalPicture picture;
+  int channels = 0;
+  const auto read = [&](auto decode) {
+    const auto pixels = decode(bytes, size, &picture.width, &picture.height, &channels, STBI_rgb_alpha);
+    if (!pixels) {
+      const char* reason = stbi_failure_reason();
+      refuse(input,
+             "is a damaged PNG file (" + std::string(reason == nullptr ? "unknown" : reason) + "); export it again");
+    }
+    if (channels < 3) refuse(input, "is a grey picture; normals need red, green and blue: export it in colours");
+    convert(pixels.get(), picture);
+  };
+  if (stbi_is_16_bit_from_memory(bytes, size) != 0) {
+    read([](auto... all) { return std::unique_ptr<stbi_us, Free>(stbi_load_16_from_memory(all...)); });
+  } else {
+    read([](auto... all) { return std::unique_ptr<stbi_uc, Free>(stbi_load_from_memory(all...)); });
+  }
+  return picture;
+}
+
+}  // namespace swage
