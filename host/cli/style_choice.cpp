@@ -58,7 +58,7 @@ bool is_mesh_name(const std::string& name) {
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 ClosestNormals closest(const StylizeJob& job, std::vector<std::string>& warnings) {
-  ClosestNormals style = closest_normals(style_mesh(job.style));
+  ClosestNormals style = closest_normals(job.style.empty() ? style_shape(StyleShape::cube) : style_mesh(job.style));
   style.dynamic = !job.no_dynamic;
   if (style.normals.rows() > kManyNormals) {
     warnings.push_back(
@@ -102,6 +102,7 @@ Mesh style_mesh(const std::string& name) {
 }
 
 std::string method_of(const StylizeJob& job) {
+  if (job.polycube) return "polycube";
   if (job.developable) return "developable";
   if (!job.capture.empty()) return "capture";
   if (!job.normals.empty()) return "normals";
@@ -115,6 +116,7 @@ std::string style_title(const StylizeJob& job) {
   for (const std::string* path : {&job.capture, &job.normals, &job.normal_map}) {
     if (!path->empty()) return stem(*path);
   }
+  if (job.style.empty()) return "polycube";
   return is_mesh_name(job.style) ? stem(job.style) : job.style;
 }
 

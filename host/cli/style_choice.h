@@ -18,7 +18,7 @@ void check_style_name(const std::string& name);
 /// A preset or the mesh in a file. Throws UnreadableFile.
 Mesh style_mesh(const std::string& name);
 
-/// "closest", "sphere", "capture", "normals", "normal-map" or "developable".
+/// "closest", "sphere", "capture", "normals", "normal-map", "developable" or "polycube".
 std::string method_of(const StylizeJob& job);
 
 /// What the style is of, in a few words: a preset, or a file's name without folder and extension.

@@ -1,20 +1,43 @@
 #include "stylize.h"
 
 #include <utility>
+#include <variant>
 
 #include "style_choice.h"
 #include "stylize_report.h"
+#include "swage/polycube.h"
 
 namespace swage::cli {
 namespace {
 
+constexpr int kAccelerated = 5;  // Passes that a start is made of.
+
 StylizeOptions solver_options(const StylizeJob& job, const Mesh& mesh, const BackendChoice& choice) {
   StylizeOptions options;
   options.energy = energy_of(job);
-  options.pass_limit = job.iterations;
+  options.weights = weights_of(job);
+  options.pass_limit = job.iterations.value_or(options.pass_limit);
+  if (job.accelerate) options.acceleration_window = kAccelerated;
   options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()));
   spdlog::debug("local steps: {} on {}", options.backend->name(), options.backend->device());
   return options;
+}
+
+/// Prepared anew in each pass: there is no plan to keep.
+StylizeResult solve_polycube(const StylizeJob& job, const Mesh& mesh, const Style& style, const Gesture& handles,
+                             const std::shared_ptr<Backend>& backend, const CommonOptions& common,
+                             RunSeconds& seconds) {
+  PolycubeOptions options;
+  options.lambda = lambda_of(job);
+  options.pass_limit = job.iterations.value_or(options.pass_limit);
+  options.backend = backend;
+  StylizeResult result = with_progress(common, [&](const ProgressFn& progress) {
+    return polycube(mesh.positions, mesh.triangles, std::get<ClosestNormals>(style), options, handles, progress);
+  });
+  stop_if_interrupted();
+  seconds.precompute = result.report.seconds["precompute"];
+  seconds.solve = result.report.seconds["solve"];
+  return result;
 }
 
 StylizeResult solve(const Mesh& mesh, const Style& style, double lambda, const Gesture& handles,
@@ -57,6 +80,7 @@ void run(const StylizeJob& job, const CommonOptions& common) {
 
   StylizeOptions options = solver_options(job, file.mesh, choice);
   StylizeResult result = solve_or_fall_back(choice, options.backend, [&] {
+    if (job.polycube) return solve_polycube(job, file.mesh, style, handles, options.backend, common, seconds);
     return solve(file.mesh, style, lambda_of(job), handles, options, common, seconds);
   });
   warnings.insert(warnings.end(), result.report.warnings.begin(), result.report.warnings.end());

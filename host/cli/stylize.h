@@ -20,6 +20,7 @@ struct StylizeJob : EditFiles {
   std::string normals;     ///< A .ply.
   std::string normal_map;  ///< A .png.
   bool developable = false;
+  bool polycube = false;  ///< With a style or without, which is a cube then.
 
   std::string target;                        ///< Of the style: closest or sphere.
   bool dynamic = false, no_dynamic = false;  ///< What is asked for; dynamic where neither is.
@@ -29,8 +30,9 @@ struct StylizeJob : EditFiles {
   std::optional<double> tau;
 
   std::optional<double> lambda;
-  std::string energy;
-  int iterations = 350;
+  std::string energy, weights;
+  bool accelerate = false;
+  std::optional<int> iterations;
   GestureOptions gesture;
   PictureOptions picture;
   std::string heat = "targets";  ///< Of the picture: targets or none.
@@ -44,6 +46,7 @@ void check_job(const StylizeJob& job);
 /// As asked for, or else as the paper has it for the style.
 double lambda_of(const StylizeJob& job);
 StylizeEnergy energy_of(const StylizeJob& job);
+StylizeWeights weights_of(const StylizeJob& job);
 
 // stylize_sheet.cpp
 /// The mesh and what six styles make of it. Throws Interrupted.

@@ -3,13 +3,14 @@
 
 #include "failure.h"
 #include "style_choice.h"
+#include "swage/polycube.h"
 
 namespace swage::cli {
 namespace {
 
 using CLI::IsMember;
 
-constexpr const char* kStyles = "--style, --capture, --normals, --normal-map or --developable";
+constexpr const char* kStyles = "--style, --capture, --normals, --normal-map, --developable or --polycube";
 
 CLI::Option* add_text(CLI::App& app, const char* name, std::string& value, const std::string& help, const char* type) {
   return app.add_option(name, value, help)->group("Style")->type_name(type);
@@ -18,6 +19,23 @@ CLI::Option* add_text(CLI::App& app, const char* name, std::string& value, const
 void add_choice(CLI::App& app, const char* name, std::string& value, const std::vector<std::string>& choices,
                 const std::string& help, CLI::Option* of) {
   app.add_option(name, value, help)->group("Style")->check(IsMember(choices))->needs(of);
+}
+
+void check_polycube(const StylizeJob& job) {
+  if (!job.polycube) return;
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw WrongUsage(fmt::format("{} does not go with --polycube: leave one out", option));
+  };
+  refuse(!job.capture.empty(), "--capture");
+  refuse(!job.normals.empty(), "--normals");
+  refuse(!job.normal_map.empty(), "--normal-map");
+  refuse(job.developable, "--developable");
+  refuse(!job.sheet.empty(), "--style-sheet");
+  refuse(job.target == "sphere", "--target sphere");
+  refuse(job.no_dynamic, "--no-dynamic");
+  refuse(!job.energy.empty(), "--energy");
+  refuse(!job.weights.empty(), "--weights");
+  refuse(job.accelerate, "--accelerate");
 }
 
 /// One of these, the sheet among them, which has styles of its own. The sheet is last.
@@ -54,9 +72,9 @@ std::vector<CLI::Option*> add_styles(CLI::App& app, StylizeJob& job) {
   styles.push_back(app.add_flag("--developable", job.developable,
                                 "To pieces that unroll without stretching, and creases between them")
                        ->group("Style"));
-  app.add_option("--tau", job.tau, "The larger, the fewer pieces bend and the more creases (0.005)")
+  app.add_option("--tau", job.tau, "The larger, the fewer pieces bend and the fewer creases there are (0.25)")
       ->group("Style")
-      ->check(between(0, 0.5))
+      ->check(between(0, 1e9))
       ->needs(styles.back());
   styles.push_back(app.add_option("--style-sheet", job.sheet,
                                   "Instead: a picture of the mesh as cube, octahedron, icosahedron, prism6, "
@@ -94,8 +112,12 @@ void add_stylize_options(CLI::App& app, StylizeJob& job) {
     for (size_t j = i + 1; j < styles.size(); ++j) styles[i]->excludes(styles[j]);
   }
   CLI::Option* const sheet = styles.back();
+  app.add_flag("--polycube", job.polycube,
+               "To boxes of the style's directions, a cube's where there is no --style: details dissolve")
+      ->group("Style");
   const std::string group = "Method";
-  app.add_option("--lambda", job.lambda, "How much the style counts against the shape (1; 1000 for --developable)")
+  app.add_option("--lambda", job.lambda,
+                 "How much the style counts against the shape (1; 10 for --polycube, 1000 for --developable)")
       ->group(group)
       ->check(between(0, 1e9));
   app.add_option("--energy", job.energy,
@@ -103,7 +125,15 @@ void add_stylize_options(CLI::App& app, StylizeJob& job) {
                  "and shrink (arap; farap for --developable)")
       ->group(group)
       ->check(IsMember({"arap", "farap", "acap"}));
-  app.add_option("--iterations", job.iterations, "Passes at most (350)")->group(group)->check(between(1, 1e6));
+  app.add_option("--weights", job.weights,
+                 "What edges count: cotangent; clamped: obtuse angles as right ones; intrinsic: cotangents of the "
+                 "intrinsic Delaunay triangulation, which badly shaped triangles leave sound (cotangent)")
+      ->group(group)
+      ->check(IsMember({"cotangent", "clamped", "intrinsic"}));
+  app.add_flag("--accelerate", job.accelerate, "To the same end in fewer passes")->group(group);
+  app.add_option("--iterations", job.iterations, "Passes at most (350; 50 for --polycube)")
+      ->group(group)
+      ->check(between(1, 1e6));
   add_gesture_options(app, job.gesture);
   CLI::Option* const picture = add_picture_option(app, job.picture, "The mesh and the result side by side");
   picture->excludes(sheet);
@@ -117,8 +147,12 @@ void add_stylize_options(CLI::App& app, StylizeJob& job) {
 
 void check_job(const StylizeJob& job) {
   const bool has_file = !(job.style.empty() && job.capture.empty() && job.normals.empty() && job.normal_map.empty());
-  if (!has_file && !job.developable && job.sheet.empty()) {
+  if (!has_file && !job.developable && !job.polycube && job.sheet.empty()) {
     throw WrongUsage(std::string("nothing to do: name a style with ") + kStyles);
+  }
+  check_polycube(job);
+  if (weights_of(job) == StylizeWeights::intrinsic_delaunay && energy_of(job) == StylizeEnergy::farap) {
+    throw WrongUsage("--weights intrinsic is not for --energy farap, whose triangles are the mesh's: take clamped");
   }
   if (!job.style.empty()) check_style_name(job.style);
   if ((job.dynamic || job.no_dynamic) && method_of(job) == "sphere") {
@@ -133,13 +167,21 @@ void check_job(const StylizeJob& job) {
   check_written(job);
 }
 
-double lambda_of(const StylizeJob& job) { return job.lambda.value_or(job.developable ? 1000 : 1); }
+double lambda_of(const StylizeJob& job) {
+  if (job.polycube) return job.lambda.value_or(PolycubeOptions{}.lambda);
+  return job.lambda.value_or(job.developable ? 1000 : 1);
+}
 
 StylizeEnergy energy_of(const StylizeJob& job) {
   for (const StylizeEnergy energy : {StylizeEnergy::arap, StylizeEnergy::farap, StylizeEnergy::acap}) {
     if (job.energy == to_string(energy)) return energy;
   }
-  return job.developable ? StylizeEnergy::farap : StylizeEnergy::arap;
+  return job.developable || job.polycube ? StylizeEnergy::farap : StylizeEnergy::arap;
+}
+
+StylizeWeights weights_of(const StylizeJob& job) {
+  if (job.weights == "intrinsic") return StylizeWeights::intrinsic_delaunay;
+  return job.weights == "clamped" || job.polycube ? StylizeWeights::clamped : StylizeWeights::cotangent;
 }
 
 }  // namespace swage::cli

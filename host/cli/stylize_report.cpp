@@ -53,6 +53,7 @@ Json report_json(const StylizeJob& job, const Stylized& run, const Backend& back
   Json json = run_json("stylize", job.mesh, run.file.mesh, method_of(job));
   json["style"] = style_title(job);
   json["regulariser"] = to_string(energy_of(job));
+  json["weights"] = to_string(weights_of(job));
   json["lambda"] = lambda_of(job);
   if (method_of(job) == "closest") json["dynamic"] = !job.no_dynamic;
   add_backend(json, backend);

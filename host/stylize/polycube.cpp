@@ -70,6 +70,9 @@ class Boxes {
     return off_targets(positions);
   }
 
+  /// Of the mesh as given.
+  GivenNormals targets(const Positions& positions) const { return as_given(plan_, targets_.find(positions)); }
+
   std::vector<StylizeTerms> terms;
 
  private:
@@ -132,6 +135,8 @@ StylizeResult solve(StylizePlan& plan, const ClosestNormals& closest, const Poly
   Positions positions = rest;
   result.report = alternate(stop, after_preparation(progress), positions, passes);
   result.passes = std::move(boxes.terms);
+  result.first_targets = boxes.targets(rest);
+  result.last_targets = boxes.targets(positions);
   result.positions = plan.box.back(positions);
   if (plan.given) {
     result.positions = plan.given->back(result.positions, turned(plan, rest, positions));

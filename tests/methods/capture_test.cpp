@@ -55,7 +55,7 @@ NormalPicture discs(int height) {
   });
 }
 
-Positions seen(const SphereMap& map, const Positions& directions) { return on_sphere(map, directions); }
+Positions seen(const SphereMap& map, const Positions& directions) { return on_sphere(map, directions, *cpu_backend()); }
 
 /// Degrees, the largest between what the capture says of directions and what is expected.
 template <typename Expected>
