@@ -63,26 +63,26 @@ BackendChoice::BackendChoice(const CommonOptions& common)
   if (name_ == "opencl") asked_for_ = backend_on(device_, precision_);
 }
 
-std::shared_ptr<Backend> BackendChoice::for_triangles(int count) const {
+std::shared_ptr<Backend> BackendChoice::for_triangles(int count, AutoDevices devices) const {
   if (asked_for_) return asked_for_;
-  return count < kTrianglesForDevice ? cpu_backend() : on_device();
+  return count < kTrianglesForDevice ? cpu_backend() : on_device(devices);
 }
 
-std::shared_ptr<Backend> BackendChoice::on_device() const {
+std::shared_ptr<Backend> BackendChoice::on_device(AutoDevices devices) const {
   try {
     if (!device_.empty()) return backend_on(device_, precision_);
-    if (const auto device = device_of_auto()) return backend_on(std::to_string(device->index), precision_);
+    if (const auto device = device_of_auto(devices)) return backend_on(std::to_string(device->index), precision_);
   } catch (const Unavailable& reason) {
     spdlog::warn("the cpu does the local steps: {}", reason.what());
   }
   return cpu_backend();
 }
 
-std::optional<Device> device_of_auto() {
+std::optional<Device> device_of_auto(AutoDevices devices) {
   const std::string named = or_environment("", "SWAGE_DEVICE");
   const auto takes = [&](const Device& device) {
     if (!device.missing.empty()) return false;
-    if (named.empty()) return device.kind != "cpu";
+    if (named.empty()) return devices == AutoDevices::all || device.kind != "cpu";
     return named == std::to_string(device.index) || device.name.find(named) != std::string::npos;
   };
   const std::vector<Device> all = devices_of_build();

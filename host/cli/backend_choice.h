@@ -10,6 +10,9 @@
 
 namespace swage::cli {
 
+/// What `auto` may take. A step whose reference computes singular values gains on a CPU's vector units too.
+enum class AutoDevices { no_cpus, all };
+
 /// `auto` leaves smaller meshes to the cpu: they are done before a device has built its kernels.
 inline constexpr int kTrianglesForDevice = 100000;
 
@@ -19,18 +22,18 @@ class BackendChoice {
   explicit BackendChoice(const CommonOptions& common);
 
   /// What `auto` comes to. Falls back to the cpu with a warning.
-  std::shared_ptr<Backend> for_triangles(int count) const;
+  std::shared_ptr<Backend> for_triangles(int count, AutoDevices devices = AutoDevices::no_cpus) const;
 
   bool is_auto() const { return name_ == "auto"; }
 
  private:
-  std::shared_ptr<Backend> on_device() const;
+  std::shared_ptr<Backend> on_device(AutoDevices devices) const;
 
   std::string name_, device_, precision_;
   std::shared_ptr<Backend> asked_for_;  ///< Null where auto.
 };
 
-/// The device that `auto` takes for large meshes: the one SWAGE_DEVICE names, else the first usable GPU or accelerator.
-std::optional<Device> device_of_auto();
+/// The device that `auto` takes for large meshes: the one SWAGE_DEVICE names, else the first usable one.
+std::optional<Device> device_of_auto(AutoDevices devices = AutoDevices::no_cpus);
 
 }  // namespace swage::cli

@@ -42,8 +42,8 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   const std::string group = "Common options";
   app.add_option(
          "--backend", common.backend,
-         "Where the local steps run: auto, cpu or opencl (SWAGE_BACKEND, else auto: OpenCL where there is a GPU "
-         "and the mesh is large)")
+         "Where the local steps run: auto, cpu or opencl (SWAGE_BACKEND, else auto: OpenCL where there is a GPU, "
+         "for stylize any device, and the mesh is large)")
       ->group(group)
       ->type_name("NAME");
   app.add_option("--device", common.device,

@@ -122,11 +122,11 @@ std::string style_title(const StylizeJob& job) {
 
 Style style_of(const StylizeJob& job, const MeshFile& file, std::vector<std::string>& warnings) {
   const std::string method = method_of(job);
-  if (method == "developable") return Developable{job.tau.value_or(Developable{}.tau)};
+  if (method == "developable") return Developable{job.tau.value_or(Developable{}.tau), job.threshold.value_or(0)};
   if (method == "capture") return read_normal_capture(job.capture, layout_of(job));
   if (method == "normals") return read_given_normals(job.normals, file);
   if (method == "normal-map") return normal_map(job, file);
-  if (method == "sphere") return sphere_map(style_mesh(job.style));
+  if (method == "sphere") return sphere_map(style_mesh(job.style), job.published);
   return closest(job, warnings);
 }
 

@@ -27,11 +27,11 @@ struct StylizeJob : EditFiles {
   std::string layout;                        ///< Of the capture.
   std::string normal_space;                  ///< Of the normal map: tangent or object.
   std::string green;                         ///< Of the normal map: up or down.
-  std::optional<double> tau;
+  std::optional<double> tau, threshold;
 
   std::optional<double> lambda;
   std::string energy, weights;
-  bool accelerate = false;
+  bool accelerate = false, published = false;
   std::optional<int> iterations;
   GestureOptions gesture;
   PictureOptions picture;

@@ -36,6 +36,7 @@ void check_polycube(const StylizeJob& job) {
   refuse(!job.energy.empty(), "--energy");
   refuse(!job.weights.empty(), "--weights");
   refuse(job.accelerate, "--accelerate");
+  refuse(job.published, "--published");
 }
 
 /// One of these, the sheet among them, which has styles of its own. The sheet is last.
@@ -72,10 +73,18 @@ std::vector<CLI::Option*> add_styles(CLI::App& app, StylizeJob& job) {
   styles.push_back(app.add_flag("--developable", job.developable,
                                 "To pieces that unroll without stretching, and creases between them")
                        ->group("Style"));
-  app.add_option("--tau", job.tau, "The larger, the fewer pieces bend and the fewer creases there are (0.25)")
+  CLI::Option* const tau =
+      app.add_option("--tau", job.tau, "The larger, the fewer pieces bend and the fewer creases there are (0.25)")
+          ->group("Style")
+          ->check(between(0, 1e9))
+          ->needs(styles.back());
+  app.add_option(
+         "--threshold", job.threshold,
+         "In place of tau: where normals around a vertex spread less, in squared mesh units, they are to be one")
       ->group("Style")
-      ->check(between(0, 1e9))
-      ->needs(styles.back());
+      ->check(between(0, 1e300))
+      ->needs(styles.back())
+      ->excludes(tau);
   styles.push_back(app.add_option("--style-sheet", job.sheet,
                                   "Instead: a picture of the mesh as cube, octahedron, icosahedron, prism6, "
                                   "rounded-cube and developable")
@@ -130,7 +139,13 @@ void add_stylize_options(CLI::App& app, StylizeJob& job) {
                  "intrinsic Delaunay triangulation, which badly shaped triangles leave sound (cotangent)")
       ->group(group)
       ->check(IsMember({"cotangent", "clamped", "intrinsic"}));
-  app.add_flag("--accelerate", job.accelerate, "To the same end in fewer passes")->group(group);
+  CLI::Option* const accelerate =
+      app.add_flag("--accelerate", job.accelerate, "To the same end in fewer passes")->group(group);
+  app.add_flag(
+         "--published", job.published,
+         "As the authors' program: --target sphere by the nearest vertex, and acap's scale by the paper's formula")
+      ->group(group)
+      ->excludes(accelerate);
   app.add_option("--iterations", job.iterations, "Passes at most (350; 50 for --polycube)")
       ->group(group)
       ->check(between(1, 1e6));

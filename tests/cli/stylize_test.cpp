@@ -154,7 +154,7 @@ TEST_F(Stylizing, DevelopableUnrollsMore) {
   EXPECT_GT(told["developable_area"]["after"], 0.2);
   const std::string usual = result({"--developable", "--iterations", "5"});
   EXPECT_TRUE(usual == result({"--developable", "--iterations", "5", "--tau", "0.25"}));
-  EXPECT_TRUE(usual != result({"--developable", "--iterations", "5", "--tau", "0"}));
+  EXPECT_TRUE(usual != result({"--developable", "--iterations", "5", "--tau", "2"}));
 }
 
 TEST_F(Stylizing, PolycubesAreBoxes) {
@@ -179,6 +179,30 @@ TEST_F(Stylizing, WeightsAreAsAskedFor) {
   for (const char* weights : {"clamped", "intrinsic"}) {
     EXPECT_TRUE(usual != result({"--style", "cube", "--weights", weights})) << weights;
   }
+}
+
+TEST_F(Stylizing, AsPublishedTakesTheNearestVertexAndThePapersScale) {
+  const Arguments sphere{"--style", "rounded-cube", "--iterations", "5"};
+  const Arguments acap{"--style", "cube", "--energy", "acap", "--iterations", "5"};
+  const Arguments arap{"--style", "cube", "--iterations", "5"};
+  const auto published = [&](Arguments arguments) {
+    arguments.emplace_back("--published");
+    return result(arguments);
+  };
+  EXPECT_TRUE(published(sphere) != result(sphere));
+  EXPECT_TRUE(published(acap) != result(acap));
+  EXPECT_TRUE(published(arap) == result(arap));
+}
+
+TEST_F(Stylizing, AThresholdStandsForTau) {
+  const Arguments developable{"--developable", "--iterations", "5"};
+  const auto with = [&](const std::string& threshold) {
+    Arguments arguments = developable;
+    arguments.insert(arguments.end(), {"--threshold", threshold});
+    return result(arguments);
+  };
+  EXPECT_TRUE(with("1e-9") != with("1e-1"));
+  EXPECT_TRUE(with("1e-1") != result(developable));
 }
 
 TEST_F(Stylizing, HandlesArrive) {
