@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "adjacency.h"
 #include "bench_main.h"
 #include "element_pairs.h"
 #include "flops.h"
@@ -223,14 +222,7 @@ void add_curvature() {
 void add_normal_fit() {
   add_step("normal_fit", [](const Backend& backend, int elements, double) {
     const Mesh mesh = mesh_of(2 * elements);
-    const auto count = static_cast<int>(mesh.positions.rows());
-    const Lists around = triangles_of_vertices(mesh.triangles, count);
-    NormalFitStep::Rest rest{{0}, {}, static_cast<int>(mesh.triangles.rows())};
-    for (int v = 0; v < count; ++v) {
-      for (const int t : around[v]) rest.triangles.push_back(t);
-      rest.offsets.push_back(static_cast<int>(rest.triangles.size()));
-    }
-    const std::shared_ptr<NormalFitStep> step = backend.normal_fit(rest);
+    const std::shared_ptr<NormalFitStep> step = backend.normal_fit(test::triangles_around(mesh));
     const Positions areas = area_vectors(mesh.positions, mesh.triangles);
     const auto directions = std::make_shared<Transforms>();
     const auto spreads = std::make_shared<Positions>();

@@ -41,14 +41,25 @@ std::string key_of(const cl::Device& device, const std::string& options, const s
          source;
 }
 
-void compile_or_explain(cl::Program& program, const cl::Device& device, const std::string& name,
-                        const std::string& options) {
-  try {
-    program.build(device, options.c_str());
-  } catch (const cl::BuildError& error) {
-    std::string logs;
-    for (const auto& [of_device, log] : error.getBuildLog()) logs += log;
-    throw Unavailable("kernels/" + name + ": the device's compiler refuses it\n" + logs);
+std::string words_of(const cl::BuildError& error) {
+  std::string words;
+  for (const auto& [device, log] : error.getBuildLog()) words += log;
+  return words;
+}
+
+/// Tried anew where it fails: PoCL may, with no word of the source, while another process builds into the same folder.
+cl::Program compiled(const cl::Context& context, const cl::Device& device, const std::string& name,
+                     const std::string& source, const std::string& options) {
+  constexpr int kTries = 3;
+  for (int tried = 1;; ++tried) {
+    cl::Program program(context, source);
+    try {
+      program.build(device, options.c_str());
+      return program;
+    } catch (const cl::BuildError& error) {
+      if (tried < kTries) continue;
+      throw Unavailable("kernels/" + name + ": the device's compiler refuses it\n" + words_of(error));
+    }
   }
 }
 
@@ -119,8 +130,7 @@ cl::Program Context::compile(const std::string& name, const std::string& source)
         // Kept by a driver that calls itself the same and is not: built again.
       }
     }
-    cl::Program program(handle_, source);
-    compile_or_explain(program, device_, name, options_);
+    const cl::Program program = compiled(handle_, device_, name, source, options_);
     keep(key, program);
     return program;
   });

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "adjacency.h"
+#include "element_pairs.h"
 #include "measures.h"
 #include "opencl_device.h"
 #include "shapes.h"
@@ -33,24 +34,13 @@ struct Fitted {
   Positions spreads;
 };
 
-NormalFitStep::Rest around_vertices(const Mesh& mesh) {
-  const auto count = static_cast<int>(mesh.positions.rows());
-  const Lists around = triangles_of_vertices(mesh.triangles, count);
-  NormalFitStep::Rest rest{{0}, {}, static_cast<int>(mesh.triangles.rows())};
-  for (int v = 0; v < count; ++v) {
-    for (const int t : around[v]) rest.triangles.push_back(t);
-    rest.offsets.push_back(static_cast<int>(rest.triangles.size()));
-  }
-  return rest;
-}
-
 class NormalFitStepBy : public testing::TestWithParam<Who> {
  protected:
   void SetUp() override { backend_ = GetParam().backend(); }
 
   Fitted fit(const Mesh& mesh) const {
     Fitted fitted;
-    backend_->normal_fit(around_vertices(mesh))
+    backend_->normal_fit(test::triangles_around(mesh))
         ->fit(area_vectors(mesh.positions, mesh.triangles), fitted.directions, fitted.spreads);
     return fitted;
   }
@@ -118,7 +108,7 @@ TEST_P(NormalFitStepBy, LeavesWhatHasNoTrianglesOrNoArea) {
 TEST_P(NormalFitStepBy, GivesTheSameBytesAgainAndRefusesOtherRows) {
   if (!backend_) return;
   const Mesh mesh = test::torus();
-  const auto step = backend_->normal_fit(around_vertices(mesh));
+  const auto step = backend_->normal_fit(test::triangles_around(mesh));
   const Positions areas = area_vectors(mesh.positions, mesh.triangles);
   Fitted first, again;
   step->fit(areas, first.directions, first.spreads);

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "adjacency.h"
 #include "shapes.h"
 
 namespace swage::test {
@@ -159,6 +160,17 @@ double covariance_size(const PairsCase& of, Index element) {
            (of.rest.vertices.row(pair[1]) - of.rest.vertices.row(pair[0])).norm();
   }
   return sum;
+}
+
+NormalFitStep::Rest triangles_around(const Mesh& mesh) {
+  const auto count = static_cast<int>(mesh.positions.rows());
+  const Lists around = triangles_of_vertices(mesh.triangles, count);
+  NormalFitStep::Rest rest{{0}, {}, static_cast<int>(mesh.triangles.rows())};
+  for (int v = 0; v < count; ++v) {
+    for (const int t : around[v]) rest.triangles.push_back(t);
+    rest.offsets.push_back(static_cast<int>(rest.triangles.size()));
+  }
+  return rest;
 }
 
 }  // namespace swage::test

@@ -37,4 +37,7 @@ Eigen::Matrix3d covariance(const PairsCase& of, Eigen::Index element, bool norma
 /// sum_p |w_p| |b_p| |a_p| + |w_n|: what a loss of the trace is measured by.
 double covariance_size(const PairsCase& of, Eigen::Index element);
 
+/// Of each vertex its triangles.
+NormalFitStep::Rest triangles_around(const Mesh& mesh);
+
 }  // namespace swage::test
