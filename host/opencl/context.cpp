@@ -130,7 +130,7 @@ cl::Program Context::compile(const std::string& name, const std::string& source)
         // Kept by a driver that calls itself the same and is not: built again.
       }
     }
-    const cl::Program program = compiled(handle_, device_, name, source, options_);
+    cl::Program program = compiled(handle_, device_, name, source, options_);
     keep(key, program);
     return program;
   });
