@@ -55,17 +55,6 @@ LineMatrix<double> matrix_of(const TurnedGrid& grid, const Vector& theta, const 
   return matrix;
 }
 
-/// Calls work(first, last) for stretches of a line's vertices that edges at the bound tie together.
-template <typename Work>
-void each_block(const AtBound& at_bound, Index line, Index layer, Index count, const Work& work) {
-  for (Index first = 0; first < count;) {
-    Index last = first;
-    while (last + 1 < count && at_bound[static_cast<size_t>(line + last * layer)] != 0) ++last;
-    if (last > first) work(first, last);
-    first = last + 1;
-  }
-}
-
 }  // namespace
 
 TurnedGrid::TurnedGrid(const Extents& of_cells, int u) : axis(u), cells(of_cells), vertices(of_cells) {
@@ -95,53 +84,37 @@ void AxisAssembly::pull(const Eigen::VectorXd& scales, double factor, AxisWork& 
   work.side.segment(layer, inner) = edges.head(inner) - edges.segment(layer, inner);
 }
 
-/// Brings tied vertices as far apart as edges at the bound are long, about where they were, and notes their lines.
+/// Brings tied vertices as far apart as edges at the bound are long, about where they were.
 void AxisAssembly::tie(double least, AxisWork& work) const {
-  const Index layer = matrix_.layer(), count = grid_.vertices[2];
-  work.tied.clear();
-  for (Index line = 0; line < layer; ++line) {
-    bool any = false;
-    each_block(work.at_bound, line, layer, count, [&](Index first, Index last) {
-      any = true;
-      const auto at = [&](Index i) -> double& { return work.change[line + i * layer]; };
+  Ties& ties = work.levels.ties;
+  ties.find_lines();
+  for (const Index line : ties.lines) {
+    ties.each_block(line, [&](Index first, Index last) {
+      const auto at = [&](Index i) -> double& { return work.change[line + i * ties.layer]; };
       double offset = 0;
       for (Index i = first; i <= last; ++i) offset += at(i) - least * static_cast<double>(i - first);
       offset /= static_cast<double>(last - first + 1);
       if (first == 0) offset = 0;
-      if (last == count - 1) offset = -least * static_cast<double>(last - first);
+      if (last == ties.count - 1) offset = -least * static_cast<double>(last - first);
       for (Index i = first; i <= last; ++i) at(i) = offset + least * static_cast<double>(i - first);
     });
-    if (any) work.tied.push_back(line);
   }
-}
-
-/// Tied vertices move by the mean of what they would.
-void AxisAssembly::keep_ties(const AxisWork& work, Vector& vector) const {
-  const Index layer = matrix_.layer(), count = grid_.vertices[2];
-#pragma omp parallel for schedule(static) if (work.tied.size() > 200)
-  for (const Index line : work.tied) {
-    each_block(work.at_bound, line, layer, count, [&](Index first, Index last) {
-      double mean = 0;
-      for (Index i = first; i <= last; ++i) mean += vector[line + i * layer];
-      mean /= static_cast<double>(last - first + 1);
-      if (first == 0 || last == count - 1) mean = 0;
-      for (Index i = first; i <= last; ++i) vector[line + i * layer] = mean;
-    });
-  }
+  levels_.tie(work.levels);
 }
 
 int AxisAssembly::improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const {
+  const Ties& ties = work.levels.ties;
   const auto times_matrix = [&](const Vector& x, Vector& product) {
     ask(poll);
     matrix_.multiply(x, product);
-    keep_ties(work, product);
+    ties.keep(product);
   };
   const auto precondition = [&](const Vector& residual, Vector& error) {
     levels_.cycle(residual, error, work.levels);
-    keep_ties(work, error);
+    ties.keep(error);
   };
   Vector side = work.side;
-  keep_ties(work, side);
+  ties.keep(side);
   times_matrix(work.change, work.image);
   work.image = side - work.image;
   precondition(work.image, work.gradients.error);
@@ -158,14 +131,15 @@ int AxisAssembly::improve(double factor, double tolerance, const Poll& poll, Axi
 
 /// Of each edge at the bound its multiplier, of others how far they are from it. Edges are told by their first vertex.
 Eigen::ArrayXd AxisAssembly::measure(double least, AxisWork& work) const {
-  const Index layer = matrix_.layer(), count = grid_.vertices[2], edges = layer * (count - 1);
+  const Ties& ties = work.levels.ties;
+  const Index layer = ties.layer, edges = layer * (ties.count - 1);
   Eigen::ArrayXd result = work.change.segment(layer, edges).array() - work.change.head(edges).array() - least;
-  if (work.tied.empty()) return result;
+  if (ties.lines.empty()) return result;
   matrix_.multiply(work.change, work.image);
   work.image -= work.side;
-  for (const Index line : work.tied) {
+  for (const Index line : ties.lines) {
     const auto slope = [&](Index i) { return work.image[line + i * layer]; };
-    each_block(work.at_bound, line, layer, count, [&](Index first, Index last) {
+    ties.each_block(line, [&](Index first, Index last) {
       double multiplier = 0;
       if (first > 0) {
         for (Index i = first; i < last; ++i) result[line + i * layer] = multiplier -= slope(i);
@@ -197,7 +171,7 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
   pull(scales, factor, work);
   if (!again) {
     work.change.setZero(work.side.size());
-    work.at_bound.assign(static_cast<size_t>(matrix_.layer() * grid_.cells[2]), 0);
+    work.levels.ties.at_bound.assign(static_cast<size_t>(matrix_.layer() * grid_.cells[2]), 0);
     work.first_square = -1;
   }
   const double bound = kLeastEdge * std::min(1.0, factor), least = bound - factor;
@@ -207,7 +181,7 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
   while (true) {
     tie(least, work);
     result.iterations += improve(factor, now, poll, work);
-    if (!pivoting.exchange(measure(least, work), 10 * now * bound, work.at_bound)) {
+    if (!pivoting.exchange(measure(least, work), 10 * now * bound, work.levels.ties.at_bound)) {
       if (now <= tolerance) break;
       now = tolerance;
       continue;
@@ -216,7 +190,7 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
     if (!result.converged) break;
   }
   pull_in(least, work);
-  result.at_bound = std::count(work.at_bound.begin(), work.at_bound.end(), 1);
+  result.at_bound = std::count(work.levels.ties.at_bound.begin(), work.levels.ties.at_bound.end(), 1);
   return result;
 }
 

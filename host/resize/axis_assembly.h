@@ -48,7 +48,6 @@ class AxisAssembly {
 
   void pull(const Eigen::VectorXd& scales, double factor, AxisWork& work) const;
   void tie(double least, AxisWork& work) const;
-  void keep_ties(const AxisWork& work, Vector& vector) const;
   int improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const;
   Eigen::ArrayXd measure(double least, AxisWork& work) const;
   void pull_in(double least, AxisWork& work) const;
@@ -65,9 +64,7 @@ struct AxisWork {
   LineWork levels;
   GradientsWork<Values<double>> gradients;
   Values<double> side, change, image;
-  AtBound at_bound;                // Edges, told by their first vertices.
-  std::vector<Eigen::Index> tied;  // Lines with an edge at the bound.
-  double first_square = -1;        // Of the error at first, in the norm of the preconditioner.
+  double first_square = -1;  // Of the error at first, in the norm of the preconditioner.
 };
 
 }  // namespace swage

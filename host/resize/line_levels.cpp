@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr float kDamping = 0.8F;
+constexpr float kDamping = 0.9F;
+constexpr float kTie = 1000;  // How much stronger than all else vertices are tied, in the lines that smooth.
 constexpr Merged kAcross = {true, true, false};
 
 template <typename Scalar>
@@ -47,19 +48,41 @@ void LineMatrix<Scalar>::multiply(const Values<Scalar>& x, Values<Scalar>& produ
 
 void LineLevels::Level::factor() {
   const Index layer = matrix.layer();
-  inverse_pivots.setZero(matrix.extents.count());
+  lines.weights = matrix.weights[2];
+  lines.inverse_pivots.setZero(matrix.extents.count());
   for (Index i = 1; i + 1 < matrix.extents[2]; ++i) {
-    const auto before = part(matrix.weights[2], (i - 1) * layer, layer);
-    inverse_pivots.segment(i * layer, layer).array() =
-        1.0F /
-        (part(matrix.diagonal, i * layer, layer) - before * before * part(inverse_pivots, (i - 1) * layer, layer));
+    const auto before = part(lines.weights, (i - 1) * layer, layer);
+    lines.inverse_pivots.segment(i * layer, layer).array() =
+        1.0F / (part(matrix.diagonal, i * layer, layer) -
+                before * before * part(lines.inverse_pivots, (i - 1) * layer, layer));
   }
 }
 
-void LineLevels::Level::solve_lines(Values<float>& sides) const {
+void LineLevels::tie(LineWork& work) const {
+  const LineMatrix<float>& matrix = levels_[0].matrix;
+  const Ties& ties = work.ties;
+  work.finest = levels_[0].lines;
+  auto& [weights, inverse_pivots] = work.finest;
+#pragma omp parallel for schedule(static) if (ties.lines.size() > 200)
+  for (const Index line : ties.lines) {
+    const auto extra = [&](Index i) {
+      const Index at = line + i * ties.layer;
+      return ties.at_bound[static_cast<size_t>(at)] == 0 ? 0 : kTie * (matrix.diagonal[at] + matrix.weights[2][at]);
+    };
+    for (Index i = 0; i + 1 < ties.count; ++i) {
+      const Index at = line + i * ties.layer, before = at - ties.layer;
+      weights[at] += extra(i);
+      if (i == 0) continue;
+      inverse_pivots[at] = 1.0F / (matrix.diagonal[at] + extra(i) + extra(i - 1) -
+                                   weights[before] * weights[before] * inverse_pivots[before]);
+    }
+  }
+}
+
+void LineLevels::Level::solve_lines(const LineFactor& factor, Values<float>& sides) const {
   constexpr Index kSide = 256;
   const Index layer = matrix.layer(), last = matrix.extents[2] - 2;
-  const Values<float>& weights = matrix.weights[2];
+  const auto& [weights, inverse_pivots] = factor;
 #pragma omp parallel for schedule(static) if (matrix.extents.count() > kManyEntries)
   for (Index begin = 0; begin < layer; begin += kSide) {
     const Index count = std::min(kSide, layer - begin);
@@ -103,6 +126,8 @@ LineLevels::LineLevels(const LineMatrix<double>& matrix) {
 
 LineWork LineLevels::work() const {
   LineWork work;
+  work.ties.layer = levels_[0].matrix.layer();
+  work.ties.count = levels_[0].matrix.extents[2];
   for (const Level& level : levels_) {
     const Values<float> zero = Values<float>::Zero(level.matrix.extents.count());
     work.levels.push_back({zero, zero, zero});
@@ -112,20 +137,25 @@ LineWork LineLevels::work() const {
 
 void LineLevels::descend(size_t at, LineWork& work) const {
   const Level& level = levels_[at];
+  const LineFactor& lines = at == 0 ? work.finest : level.lines;
   auto& [residual, error, image] = work.levels[at];
   error = residual;
-  level.solve_lines(error);
+  level.solve_lines(lines, error);
   if (at + 1 == levels_.size()) return;
   error *= kDamping;
+  if (at == 0) work.ties.keep(error);
   level.matrix.multiply(error, image);
   image = residual - image;
+  if (at == 0) work.ties.keep(image);
   LineWork::Level& coarse = work.levels[at + 1];
   gather(level.matrix.extents, kAcross, image.data(), coarse.residual.data());
   descend(at + 1, work);
   scatter_add(level.matrix.extents, kAcross, coarse.error.data(), error.data());
+  if (at == 0) work.ties.keep(error);
   level.matrix.multiply(error, image);
   image = residual - image;
-  level.solve_lines(image);
+  if (at == 0) work.ties.keep(image);
+  level.solve_lines(lines, image);
   error += kDamping * image;
 }
 

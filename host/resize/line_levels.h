@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "merge.h"
+#include "ties.h"
 
 namespace swage {
 
@@ -24,12 +25,19 @@ struct LineMatrix {
   void multiply(const Values<Scalar>& x, Values<Scalar>& product) const;
 };
 
+/// Tridiagonal matrices of all lines.
+struct LineFactor {
+  Values<float> weights, inverse_pivots;
+};
+
 /// Vectors of each level, for one thread at a time.
 struct LineWork {
   struct Level {
     Values<float> residual, error, image;
   };
   std::vector<Level> levels;
+  Ties ties;
+  LineFactor finest;  // With the ties.
 };
 
 class LineLevels {
@@ -37,17 +45,19 @@ class LineLevels {
   explicit LineLevels(const LineMatrix<double>& matrix);
 
   LineWork work() const;
-  /// One V-cycle in single precision; symmetric.
+  /// Takes over the work's ties.
+  void tie(LineWork& work) const;
+  /// One V-cycle in single precision, symmetric, among vertices as they are tied.
   void cycle(const Values<double>& residual, Values<double>& error, LineWork& work) const;
 
  private:
   struct Level {
     LineMatrix<float> matrix;
-    Values<float> inverse_pivots;  // Of each line's tridiagonal matrix.
+    LineFactor lines;
 
     void factor();
     /// In place.
-    void solve_lines(Values<float>& sides) const;
+    void solve_lines(const LineFactor& factor, Values<float>& sides) const;
   };
 
   void descend(size_t at, LineWork& work) const;
