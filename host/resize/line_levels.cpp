@@ -145,7 +145,7 @@ void LineLevels::descend(size_t at, LineWork& work) const {
   error *= kDamping;
   if (at == 0) work.ties.keep(error);
   level.matrix.multiply(error, image);
-  image = residual - image;
+  combine(1, residual, -1, image);
   if (at == 0) work.ties.keep(image);
   LineWork::Level& coarse = work.levels[at + 1];
   gather(level.matrix.extents, kAcross, image.data(), coarse.residual.data());
@@ -153,10 +153,10 @@ void LineLevels::descend(size_t at, LineWork& work) const {
   scatter_add(level.matrix.extents, kAcross, coarse.error.data(), error.data());
   if (at == 0) work.ties.keep(error);
   level.matrix.multiply(error, image);
-  image = residual - image;
+  combine(1, residual, -1, image);
   if (at == 0) work.ties.keep(image);
   level.solve_lines(lines, image);
-  error += kDamping * image;
+  combine(kDamping, image, 1, error);
 }
 
 void LineLevels::cycle(const Values<double>& residual, Values<double>& error, LineWork& work) const {

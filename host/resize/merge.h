@@ -14,7 +14,7 @@ using Values = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 inline int next(int axis) { return (axis + 1) % 3; }
 
 /// Below so many entries threads cost more than they bring.
-constexpr Eigen::Index kManyEntries = 10'000;
+constexpr Eigen::Index kManyEntries = 30'000;
 
 /// Of weights between pairs of neighbours, each a way of 1 long, this part stands for the way of 2 between merged ones.
 constexpr float kLongerWay = 0.7F;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vectors.h"
+
 namespace swage {
 namespace {
 
@@ -155,7 +157,7 @@ void ScaleLevels::descend(size_t at) {
   const ScaleLayout& layout = level.matrix.layout;
   const RowSpread<float> keep_rows{layout, mask_, inverse_mask_};
   level.matrix.multiply(level.error, level.image);
-  level.image = level.residual - level.image;
+  combine(1, level.residual, -1, level.image);
   if (at == 0 && !all_free_) keep_rows.apply<false>(1, level.image, level.image);
   Level& coarse = levels_[at + 1];
   for (int u = 0; u < 3; ++u) {
@@ -171,7 +173,7 @@ void ScaleLevels::descend(size_t at) {
   }
   if (at == 0 && !all_free_) keep_rows.apply<false>(1, level.error, level.error);
   level.matrix.multiply(level.error, level.image);
-  level.image = level.residual - level.image;
+  combine(1, level.residual, -1, level.image);
   smooth.apply<true>(kDamping, level.image, level.error);
 }
 
