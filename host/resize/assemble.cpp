@@ -47,7 +47,7 @@ void put(const GridShape& shape, const TurnedGrid& grid, double factor, const Va
   const Extents vertices = shape.vertices();
   const int u = grid.axis;
   const double length = shape.size[u] / shape.cells[u];
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
   for (int k = 0; k < vertices[2]; ++k) {
     for (int j = 0; j < vertices[1]; ++j) {
       for (int i = 0; i < vertices[0]; ++i) {

@@ -102,7 +102,7 @@ void AxisAssembly::tie(double least, AxisWork& work) const {
   levels_.tie(work.levels);
 }
 
-int AxisAssembly::improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const {
+Gradients AxisAssembly::improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const {
   const Ties& ties = work.levels.ties;
   const auto times_matrix = [&](const Vector& x, Vector& product) {
     ask(poll);
@@ -123,10 +123,9 @@ int AxisAssembly::improve(double factor, double tolerance, const Poll& poll, Axi
   const double off = kRounding * factor * grid_.cells[2];
   if (work.first_square < 0) work.first_square = square;
   const double first = work.first_square;
-  if (square <= std::max(tolerance * tolerance * first, off * off * matrix_.diagonal.sum())) return 0;
+  if (square <= std::max(tolerance * tolerance * first, off * off * matrix_.diagonal.sum())) return {0, true};
   return conjugate_gradients(times_matrix, precondition, side, tolerance * std::sqrt(first / square), kIterationLimit,
-                             work.change, work.gradients)
-      .iterations;
+                             work.change, work.gradients);
 }
 
 /// Of each edge at the bound its multiplier, of others how far they are from it. Edges are told by their first vertex.
@@ -154,7 +153,7 @@ Eigen::ArrayXd AxisAssembly::measure(double least, AxisWork& work) const {
 /// Draws lines that pass the bound towards plain scaling until they do not: what tolerances left.
 void AxisAssembly::pull_in(double least, AxisWork& work) const {
   const Index layer = matrix_.layer();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (work.change.size() > kManyEntries)
   for (Index line = 0; line < layer; ++line) {
     double part = 1;
     for (Index i = 0; i + 1 < grid_.vertices[2]; ++i) {
@@ -180,14 +179,15 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
   double now = std::max(kLoose, tolerance);
   while (true) {
     tie(least, work);
-    result.iterations += improve(factor, now, poll, work);
+    const Gradients gradients = improve(factor, now, poll, work);
+    result.iterations += gradients.iterations;
+    result.converged = gradients.converged && result.rounds < kRoundLimit;
     if (!pivoting.exchange(measure(least, work), 10 * now * bound, work.levels.ties.at_bound)) {
       if (now <= tolerance) break;
       now = tolerance;
       continue;
     }
-    result.converged = ++result.rounds < kRoundLimit;
-    if (!result.converged) break;
+    if (result.rounds++ == kRoundLimit) break;
   }
   pull_in(least, work);
   result.at_bound = std::count(work.levels.ties.at_bound.begin(), work.levels.ties.at_bound.end(), 1);

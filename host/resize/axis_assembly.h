@@ -48,7 +48,7 @@ class AxisAssembly {
 
   void pull(const Eigen::VectorXd& scales, double factor, AxisWork& work) const;
   void tie(double least, AxisWork& work) const;
-  int improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const;
+  Gradients improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const;
   Eigen::ArrayXd measure(double least, AxisWork& work) const;
   void pull_in(double least, AxisWork& work) const;
 

@@ -13,7 +13,7 @@ Positions carry(const GridShape& shape, const AxisValues& vertices, const Positi
   if (vertices.rows() != grid.count()) throw InvalidInput("carry: vertices: not a row for each vertex of the grid");
   if (!points.allFinite()) throw InvalidInput("carry: points: not finite");
   Positions result(points.rows(), 3);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (points.rows() > 1000)
   for (Eigen::Index p = 0; p < points.rows(); ++p) {
     std::array<int, 3> cell = {};
     Eigen::RowVector3d part = Eigen::RowVector3d::Zero(), off = Eigen::RowVector3d::Zero();

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "merge.h"
+
 namespace swage {
 namespace {
 
@@ -73,7 +75,7 @@ double least_coefficient(const CellEdges& cell) {
 
 std::vector<Index> folded_cells(const GridShape& shape, const AxisValues& vertices, double least) {
   std::vector<char> folded(static_cast<size_t>(shape.cells.count()), 0);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
   for (int k = 0; k < shape.cells[2]; ++k) {
     for (int j = 0; j < shape.cells[1]; ++j) {
       for (int i = 0; i < shape.cells[0]; ++i) {

@@ -63,7 +63,7 @@ void LineLevels::tie(LineWork& work) const {
   const Ties& ties = work.ties;
   work.finest = levels_[0].lines;
   auto& [weights, inverse_pivots] = work.finest;
-#pragma omp parallel for schedule(static) if (ties.lines.size() > 200)
+#pragma omp parallel for schedule(static) if (static_cast <Index>(ties.lines.size()) * ties.count > kManyEntries)
   for (const Index line : ties.lines) {
     const auto extra = [&](Index i) {
       const Index at = line + i * ties.layer;

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <vector>
 
-#include "bounded.h"
 #include "scale_matrix.h"
 
 namespace swage {
@@ -16,7 +15,7 @@ class ScaleLevels {
 
   /// Takes over the matrix's diagonal and pairs.
   void fill(const ScaleMatrix<double>& matrix);
-  /// `free`: 1 where a scale may change, else 0; as long as the matrix is.
+  /// `free`: 1 where a scale may change, else 0; as long as the matrix is. `all`: whether all may.
   void hold(const Values<double>& free, bool all);
   /// One V-cycle in single precision. Symmetric; the error is 0 where no scale may change.
   void cycle(const Values<double>& residual, Values<double>& error);

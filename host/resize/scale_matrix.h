@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <vector>
 
 #include "merge.h"
 

@@ -72,8 +72,8 @@ struct ScaleSolve::Plan {
 
   double unit(const Eigen::RowVector3d& factors) const;
   void fill(ScaleWork& work, const Eigen::RowVector3d& factors, double unit, double size_weight) const;
-  int improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
-              const Poll& poll) const;
+  Gradients improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
+                    const Poll& poll) const;
   Eigen::ArrayXd measure(ScaleWork& work, const AtBound& at_bound, const Eigen::RowVector3d& factors) const;
   void hold(ScaleWork& work, const AtBound& at_bound, const Eigen::RowVector3d& factors) const;
   void pull_in(ScaleWork& work, const Eigen::RowVector3d& factors) const;
@@ -86,7 +86,7 @@ template <typename Work>
 void ScaleSolve::Plan::each_row(const Work& work) const {
   for (int u = 0; u < 3; ++u) {
     const Index stride = shape.cells.stride(u), rows = shape.cells.count() / shape.cells[u];
-#pragma omp parallel for schedule(static) if (rows > 500)
+#pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
     for (Index row = 0; row < rows; ++row) work(u, row / stride * stride * shape.cells[u] + row % stride, stride);
   }
 }
@@ -106,7 +106,7 @@ void ScaleSolve::Plan::fill(ScaleWork& work, const Eigen::RowVector3d& factors, 
   ScaleMatrix<double>& own = work.matrix;
   work.side.setZero(layout.size);
   work.change.setZero(layout.size);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
   for (Index c = 0; c < shape.cells.count(); ++c) {
     Eigen::RowVector3d inverse = Eigen::RowVector3d::Zero(), diagonal = Eigen::RowVector3d::Zero();
     for (int u = 0; u < 3; ++u) {
@@ -137,8 +137,8 @@ void ScaleSolve::Plan::fill(ScaleWork& work, const Eigen::RowVector3d& factors, 
 }
 
 /// Conjugate gradients to a part of the error that was there at first, at the first call.
-int ScaleSolve::Plan::improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
-                              const Poll& poll) const {
+Gradients ScaleSolve::Plan::improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
+                                    const Poll& poll) const {
   const auto times_matrix = [&](const Vector& x, Vector& product) {
     ask(poll);
     work.matrix.multiply(x, product);
@@ -151,10 +151,9 @@ int ScaleSolve::Plan::improve(ScaleWork& work, const Eigen::RowVector3d& factors
   // What it would be if all scales were off by rounding: nothing is to be gained below.
   const double rounding = kRounding * kRounding * factors.squaredNorm() * work.matrix.diagonal.sum();
   if (first < 0) first = square;
-  if (square <= std::max(tolerance * tolerance * first, rounding)) return 0;
+  if (square <= std::max(tolerance * tolerance * first, rounding)) return {0, true};
   return conjugate_gradients(times_matrix, precondition, work.side, tolerance * std::sqrt(first / square),
-                             kIterationLimit, work.change, work.gradients)
-      .iterations;
+                             kIterationLimit, work.change, work.gradients);
 }
 
 /// Of each entry at the bound its multiplier, of others how far they are from it.
@@ -252,15 +251,16 @@ Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& op
   double first = -1, tolerance = std::max(kLoose, options.tolerance);
   while (true) {
     plan_->hold(*work, at_bound, factors);
-    result.iterations += plan_->improve(*work, factors, tolerance, first, poll);
+    const Gradients gradients = plan_->improve(*work, factors, tolerance, first, poll);
+    result.iterations += gradients.iterations;
+    result.converged = gradients.converged && result.rounds < kRoundLimit;
     const double negligible = 10 * tolerance * std::min(1.0, factors.minCoeff()) * kLeastScale;
     if (!pivoting.exchange(plan_->measure(*work, at_bound, factors), negligible, at_bound)) {
       if (tolerance <= options.tolerance) break;
       tolerance = options.tolerance;
       continue;
     }
-    result.converged = ++result.rounds < kRoundLimit;
-    if (!result.converged) break;
+    if (result.rounds++ == kRoundLimit) break;
   }
   plan_->pull_in(*work, factors);
   result.at_bound = std::count(at_bound.begin(), at_bound.end(), 1);

@@ -38,7 +38,7 @@ struct Ties {
   /// Tied vertices get the mean of what they have; those tied to the ends of a line, which are held, nothing.
   template <typename Scalar>
   void keep(Values<Scalar>& vector) const {
-#pragma omp parallel for schedule(static) if (lines.size() > 200)
+#pragma omp parallel for schedule(static) if (static_cast <Eigen::Index>(lines.size()) * count > kManyEntries)
     for (const Eigen::Index line : lines) {
       each_block(line, [&](Eigen::Index first, Eigen::Index last) {
         Scalar mean = 0;
