@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "vectors.h"
-
 namespace swage {
 namespace {
 
@@ -12,6 +10,10 @@ using Eigen::Index;
 
 // So many rows side by side are summed at once.
 constexpr Index kSide = 256;
+
+constexpr Index kStencils = 4096;  // So many in a row are worked at once.
+
+bool large(const ScaleLayout& layout) { return layout.size > 3 * kManyEntries; }
 
 template <typename Scalar>
 auto part(const Values<Scalar>& values, Index begin, Index count) {
@@ -58,23 +60,25 @@ Extents ScaleMatrix<Scalar>::pair_extents(int p) const {
 template <typename Scalar>
 void ScaleMatrix<Scalar>::multiply(const Values<Scalar>& x, Values<Scalar>& product) const {
   if (product.size() != layout.size) product.setZero(layout.size);
+#pragma omp parallel if (large(layout))
   for (size_t u = 0; u < 3; ++u) {
     const Extents& extents = layout.extents[u];
     const int v = next(static_cast<int>(u)), w = next(v);
     const Index a = extents.stride(v), b = extents.stride(w);
-    each_stretch(extents.count(), [&](Index begin, Index count, Index) {
-      const Index at = layout.begins[u] + begin;
+#pragma omp for schedule(static) nowait
+    for (Index begin = 0; begin < extents.count(); begin += kStencils) {
+      const Index at = layout.begins[u] + begin, count = std::min(kStencils, extents.count() - begin);
       product.segment(at, count).array() = part(diagonal, at, count) * part(x, at, count) -
                                            part(weights[0], at, count) * part(x, at + a, count) -
                                            part(weights[0], at - a, count) * part(x, at - a, count) -
                                            part(weights[1], at, count) * part(x, at + b, count) -
                                            part(weights[1], at - b, count) * part(x, at - b, count);
-      if (layout.halvings > 0) return;
+      if (layout.halvings > 0) continue;
       const auto before = static_cast<size_t>(w), after = static_cast<size_t>(v);
       product.segment(at, count).array() -=
           part(pairs[u], begin, count) * part(x, layout.begins[after] + begin, count) +
           part(pairs[before], begin, count) * part(x, layout.begins[before] + begin, count);
-    });
+    }
   }
   if (layout.halvings == 0) return;
   for (int p = 0; p < 3; ++p) multiply_pairs(p, x, product);
@@ -116,13 +120,24 @@ void ScaleMatrix<Scalar>::multiply_pairs(int p, const Values<Scalar>& x, Values<
 
 namespace {
 
-/// Calls work(begin, count, stride of the next along the row, row) for stretches of rows that lie side by side.
+/// Where the rows along an axis begin, after those along the axes before it.
+Index first_row(const ScaleLayout& layout, int axis) {
+  Index rows = 0;
+  for (int u = 0; u < axis; ++u) {
+    const Extents& extents = layout.extents[static_cast<size_t>(u)];
+    rows += extents.count() / extents[u];
+  }
+  return rows;
+}
+
+/// Calls work(begin, count, stride of the next along the row, row) for stretches of rows that lie side by side. Called
+/// by all threads of a parallel region, which share the stretches and do not wait for each other.
 template <typename Work>
 void each_rows(const ScaleLayout& layout, int axis, const Work& work) {
   const Extents& extents = layout.extents[static_cast<size_t>(axis)];
   const Index inner = extents.stride(axis), step = inner * extents[axis], outer = extents.count() / step;
   const Index parts = (inner + kSide - 1) / kSide;
-#pragma omp parallel for schedule(static) if (extents.count() > kManyEntries)
+#pragma omp for schedule(static) nowait
   for (Index i = 0; i < outer * parts; ++i) {
     const Index first = i % parts * kSide;
     work(i / parts * step + first, std::min(kSide, inner - first), inner, i / parts * inner + first);
@@ -133,15 +148,12 @@ void each_rows(const ScaleLayout& layout, int axis, const Work& work) {
 
 template <typename Scalar>
 void RowSpread<Scalar>::sum() {
-  Index rows = 0;
-  for (int u = 0; u < 3; ++u)
-    rows += layout.extents[static_cast<size_t>(u)].count() / layout.extents[static_cast<size_t>(u)][u];
-  inverse_sums.resize(rows);
-  Index begin = 0;
+  inverse_sums.resize(first_row(layout, 3));
+#pragma omp parallel if (large(layout))
   for (int u = 0; u < 3; ++u) {
     const Extents& extents = layout.extents[static_cast<size_t>(u)];
     const Scalar* own = weights.data() + layout.begins[static_cast<size_t>(u)];
-    Scalar* sums = inverse_sums.data() + begin;
+    Scalar* sums = inverse_sums.data() + first_row(layout, u);
     each_rows(layout, u, [&](Index first, Index count, Index stride, Index row) {
       for (Index r = 0; r < count; ++r) {
         Scalar total = 0;
@@ -149,7 +161,6 @@ void RowSpread<Scalar>::sum() {
         sums[row + r] = total > 0 ? 1 / total : 0;
       }
     });
-    begin += extents.count() / extents[u];
   }
 }
 
@@ -159,10 +170,10 @@ void RowSpread<Scalar>::apply(Scalar factor, const Values<From>& from, Values<To
   using Wide = std::common_type_t<From, To>;
   using Side = Eigen::Array<Wide, Eigen::Dynamic, 1, 0, kSide, 1>;
   if (to.size() != layout.size) to.setZero(layout.size);
-  Index begin = 0;
+#pragma omp parallel if (large(layout))
   for (int u = 0; u < 3; ++u) {
     const Extents& extents = layout.extents[static_cast<size_t>(u)];
-    const Index start = layout.begins[static_cast<size_t>(u)], length = extents[u];
+    const Index start = layout.begins[static_cast<size_t>(u)], length = extents[u], begin = first_row(layout, u);
     each_rows(layout, u, [&](Index first, Index count, Index stride, Index row) {
       const Scalar* own = weights.data() + start + first;
       const From* source = from.data() + start + first;
@@ -194,7 +205,6 @@ void RowSpread<Scalar>::apply(Scalar factor, const Values<From>& from, Values<To
         }
       }
     });
-    begin += extents.count() / extents[u];
   }
 }
 
