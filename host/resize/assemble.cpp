@@ -117,7 +117,7 @@ std::unique_ptr<AssemblyWork> Assembly::Plan::new_work() const {
 
 Assembly::Assembly(const GridShape& shape, const CellMap& map) {
   check(kCaller, shape, map);
-  plan_ = std::make_unique<Plan>(shape, map, axes_of(shape, map));
+  plan_.reset(new Plan{shape, map, axes_of(shape, map)});
   plan_->works.lend([&] { return plan_->new_work(); });
 }
 Assembly::~Assembly() = default;

@@ -32,7 +32,8 @@ struct CellEdges {
     }
   }
   const Eigen::RowVector3d& along(int u, int i, int j, int k) const {
-    return edges[static_cast<size_t>(u)][static_cast<size_t>(i + 2 * j + 4 * k)];
+    const int corner = i + 2 * j + 4 * k;
+    return edges[static_cast<size_t>(u)][static_cast<size_t>(corner)];
   }
 
   std::array<std::array<Eigen::RowVector3d, 8>, 3> edges;

@@ -62,7 +62,7 @@ void LineLevels::tie(LineWork& work) const {
   const LineMatrix<float>& matrix = levels_[0].matrix;
   const Ties& ties = work.ties;
   work.finest = levels_[0].lines;
-  auto& [weights, inverse_pivots] = work.finest;
+  Values<float>&weights = work.finest.weights, &inverse_pivots = work.finest.inverse_pivots;
 #pragma omp parallel for schedule(static) if (static_cast <Index>(ties.lines.size()) * ties.count > kManyEntries)
   for (const Index line : ties.lines) {
     const auto extra = [&](Index i) {
@@ -82,7 +82,7 @@ void LineLevels::tie(LineWork& work) const {
 void LineLevels::Level::solve_lines(const LineFactor& factor, Values<float>& sides) const {
   constexpr Index kSide = 256;
   const Index layer = matrix.layer(), last = matrix.extents[2] - 2;
-  const auto& [weights, inverse_pivots] = factor;
+  const Values<float>&weights = factor.weights, &inverse_pivots = factor.inverse_pivots;
 #pragma omp parallel for schedule(static) if (matrix.extents.count() > kManyEntries)
   for (Index begin = 0; begin < layer; begin += kSide) {
     const Index count = std::min(kSide, layer - begin);

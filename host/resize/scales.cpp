@@ -224,7 +224,7 @@ void ScaleSolve::Plan::pull_in(ScaleWork& work, const Eigen::RowVector3d& factor
 
 ScaleSolve::ScaleSolve(const GridShape& shape, const CellMap& map) {
   check(kCaller, shape, map);
-  plan_ = std::make_unique<Plan>(shape, map, with_weights(shape, map.phi));
+  plan_.reset(new Plan{shape, map, with_weights(shape, map.phi)});
   plan_->works.lend([&] { return std::make_unique<ScaleWork>(plan_->matrix); });
 }
 ScaleSolve::~ScaleSolve() = default;
