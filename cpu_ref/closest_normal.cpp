@@ -64,9 +64,15 @@ class CpuClosestNormal final : public ClosestNormalStep {
 
  private:
   int of_few(const Eigen::RowVector3d& unit) const {
-    Eigen::Index best = 0;
-    (normals_.rows * unit.transpose()).maxCoeff(&best);
-    return static_cast<int>(best);
+    int best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int m = 0; m < normals_.rows.rows(); ++m) {
+      const double cosine = normals_.rows.row(m).dot(unit);
+      if (cosine <= most) continue;
+      most = cosine;
+      best = m;
+    }
+    return best;
   }
 
   int by_tree(const Eigen::RowVector3d& unit) const {

@@ -9,9 +9,13 @@
 namespace swage {
 namespace {
 
+// Of so few the closest is found before a device has been asked.
+constexpr Eigen::Index kFewNormals = 64;
+
 Targets to(const StylizePlan& plan, const ClosestNormals& style) {
   const Positions normals = normalised(style.normals);
-  const std::shared_ptr<ClosestNormalStep> step = plan.options.backend->closest_normal(normals);
+  const std::shared_ptr<Backend> backend = normals.rows() > kFewNormals ? plan.options.backend : cpu_backend();
+  const std::shared_ptr<ClosestNormalStep> step = backend->closest_normal(normals);
   const auto find = [&plan, normals, step](const Positions& positions) -> Positions {
     Eigen::VectorXi closest;
     step->find(element_normals(plan, positions), closest);
