@@ -33,9 +33,8 @@ Eigen::VectorXd angles_between(const Positions& normals, const Positions& target
 }
 
 /// Of each vertex, over the triangles around it.
-template <class Rows>
-Rows sums_around(const Rows& of_triangles, const Triangles& triangles, Index vertex_count) {
-  Rows sums = Rows::Zero(vertex_count, of_triangles.cols());
+Positions sums_around(const Positions& of_triangles, const Triangles& triangles, Index vertex_count) {
+  Positions sums = Positions::Zero(vertex_count, 3);
   for (Index t = 0; t < triangles.rows(); ++t) {
     for (const int v : triangles.row(t)) sums.row(v) += of_triangles.row(t);
   }
@@ -63,32 +62,20 @@ void measure_angles(const Positions& positions, const Triangles& triangles, cons
     return;
   }
   const Eigen::VectorXd angles = angles_between(sums_around(vectors, triangles, positions.rows()), targets.normals);
-  measures.angle = spread(angles, sums_around(areas, triangles, positions.rows()));
+  measures.angle = spread(angles, barycentric_areas(positions, triangles));
   measures.face_angles.resize(triangles.rows());
   for (Index t = 0; t < triangles.rows(); ++t) {
     measures.face_angles[t] = mean_known({angles[triangles(t, 0)], angles[triangles(t, 1)], angles[triangles(t, 2)]});
   }
 }
 
-/// Of the corners of each triangle, radians.
-Eigen::Vector3d corner_angles(const Positions& positions, const Eigen::RowVector3i& triangle) {
-  Eigen::Vector3d angles;
-  for (int k = 0; k < 3; ++k) {
-    const RowVector3d a = positions.row(triangle[k]);
-    const RowVector3d ab = positions.row(triangle[(k + 1) % 3]) - a, ac = positions.row(triangle[(k + 2) % 3]) - a;
-    angles[k] = std::atan2(ab.cross(ac).norm(), ab.dot(ac));
-  }
-  return angles;
-}
-
 double developable_share(const Positions& positions, const Triangles& triangles) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(positions.rows());
   for (const auto& triangle : triangles.rowwise()) {
-    const Eigen::Vector3d angles = corner_angles(positions, triangle);
+    const Eigen::Vector3d angles = corner_angles(Eigen::Matrix3d(positions(triangle, Eigen::all)));
     for (int k = 0; k < 3; ++k) sums[triangle[k]] += angles[k];
   }
-  const Eigen::VectorXd areas =
-      sums_around<Eigen::VectorXd>(area_vectors(positions, triangles).rowwise().norm(), triangles, positions.rows());
+  const Eigen::VectorXd areas = barycentric_areas(positions, triangles);
   const Edges edges = edges_of(triangles);
   std::vector<char> is_inner(static_cast<size_t>(positions.rows()), 1);
   for (int e = 0; e < edges.triangles.size(); ++e) {

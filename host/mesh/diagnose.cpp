@@ -28,17 +28,6 @@ void measure_edges(Diagnosis& diagnosis, const Positions& positions, const Edges
   diagnosis.longest_to_mean_edge = diagnosis.mean_edge > 0 ? diagnosis.longest_edge / diagnosis.mean_edge : 0;
 }
 
-double smallest_angle(const Positions& positions, const Eigen::RowVector3i& triangle) {
-  double smallest = std::numbers::pi;
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::RowVector3d a = positions.row(triangle[k]);
-    const Eigen::RowVector3d ab = positions.row(triangle[(k + 1) % 3]) - a;
-    const Eigen::RowVector3d ac = positions.row(triangle[(k + 2) % 3]) - a;
-    smallest = std::min(smallest, std::atan2(ab.cross(ac).norm(), ab.dot(ac)));
-  }
-  return smallest;
-}
-
 /// Of ascending values, between the two nearest ones where it falls between.
 double quantile(const std::vector<double>& ascending, double part) {
   const double at = part * static_cast<double>(ascending.size() - 1);
@@ -52,7 +41,7 @@ std::vector<double> smallest_angles(Diagnosis& diagnosis, const Mesh& mesh) {
   std::vector<double> angles;
   for (int t = 0; t < diagnosis.triangles; ++t) {
     if (has_area(mesh.positions, mesh.triangles.row(t))) {
-      angles.push_back(smallest_angle(mesh.positions, mesh.triangles.row(t)));
+      angles.push_back(corner_angles(mesh.positions(mesh.triangles.row(t), Eigen::all)).minCoeff());
     } else if (diagnosis.degenerate_triangles.count++ == 0) {
       diagnosis.degenerate_triangles.first = t;
     }

@@ -51,6 +51,25 @@ Positions unit_normals(const Positions& positions, const Triangles& triangles) {
   return normals;
 }
 
+Eigen::VectorXd barycentric_areas(const Positions& positions, const Triangles& triangles) {
+  const Eigen::VectorXd areas = area_vectors(positions, triangles).rowwise().norm() / 2;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(positions.rows());
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (const int v : triangles.row(t)) result[v] += areas[t] / 3;
+  }
+  return result;
+}
+
+Eigen::Vector3d corner_angles(const Eigen::Matrix3d& corners) {
+  Eigen::Vector3d angles;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::RowVector3d ab = corners.row((k + 1) % 3) - corners.row(k);
+    const Eigen::RowVector3d ac = corners.row((k + 2) % 3) - corners.row(k);
+    angles[k] = std::atan2(ab.cross(ac).norm(), ab.dot(ac));
+  }
+  return angles;
+}
+
 bool has_area(const Positions& positions, const Eigen::RowVector3i& triangle) {
   const Eigen::RowVector3d a = positions.row(triangle[0]);
   const Eigen::RowVector3d ab = positions.row(triangle[1]) - a, ac = positions.row(triangle[2]) - a;

@@ -18,6 +18,12 @@ Positions normalised(Positions rows);
 /// #T × 3, unit; zero where a triangle has no area.
 Positions unit_normals(const Positions& positions, const Triangles& triangles);
 
+/// #V: a third of the areas of the triangles around.
+Eigen::VectorXd barycentric_areas(const Positions& positions, const Triangles& triangles);
+
+/// Radians, [0, pi], at each corner.
+Eigen::Vector3d corner_angles(const Eigen::Matrix3d& corners);
+
 /// Whether the height over the longest side is above 1e-10: below that, rounding alone may have made the normal.
 bool has_area(const Positions& positions, const Eigen::RowVector3i& triangle);
 

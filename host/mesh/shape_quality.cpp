@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "measures.h"
+
 namespace swage {
 namespace {
 
@@ -18,17 +20,9 @@ struct Shape {
 };
 
 Shape shape_of(const Positions& positions, const Eigen::RowVector3i& triangle) {
-  Shape shape{0, std::numbers::pi, {}};
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::RowVector3d a = positions.row(triangle[k]);
-    const Eigen::RowVector3d ab = positions.row(triangle[(k + 1) % 3]) - a;
-    const Eigen::RowVector3d ac = positions.row(triangle[(k + 2) % 3]) - a;
-    const double twice_area = ab.cross(ac).norm();
-    shape.area = twice_area / 2;
-    shape.smallest_angle = std::min(shape.smallest_angle, std::atan2(twice_area, ab.dot(ac)));
-    shape.sides[static_cast<size_t>(k)] = ab.norm();
-  }
-  return shape;
+  const Eigen::Matrix3d corners = positions(triangle, Eigen::all);
+  const Eigen::RowVector3d a = corners.row(0), ab = corners.row(1) - a, ac = corners.row(2) - a;
+  return {ab.cross(ac).norm() / 2, corner_angles(corners).minCoeff(), {ab.norm(), (ac - ab).norm(), ac.norm()}};
 }
 
 }  // namespace

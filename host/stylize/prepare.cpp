@@ -21,15 +21,9 @@ Elements elements_of(const StylizePlan& plan, const Mesh& unit_mesh, const std::
   return plan.of_triangles() ? triangle_elements(unit_mesh, weights) : vertex_elements(unit_mesh, weights);
 }
 
-/// Barycentric areas, a third of the triangles around, of vertices.
 Eigen::VectorXd areas_of_elements(const StylizePlan& plan, const Mesh& unit_mesh) {
-  Eigen::VectorXd areas = area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm() / 2;
-  if (plan.of_triangles()) return areas;
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(unit_mesh.positions.rows());
-  for (int v = 0; v < result.size(); ++v) {
-    for (const int t : plan.triangles_around[v]) result[v] += areas[t] / 3;
-  }
-  return result;
+  if (!plan.of_triangles()) return barycentric_areas(unit_mesh.positions, unit_mesh.triangles);
+  return area_vectors(unit_mesh.positions, unit_mesh.triangles).rowwise().norm() / 2;
 }
 
 /// Of each component the first vertex of its first triangle: the authors' F(0, 0).

@@ -54,75 +54,116 @@ StylizeResult cancelled(const StylizePlan& plan) {
   return result;
 }
 
+/// One call's state.
+class Passes {
+ public:
+  Passes(StylizePlan& plan, const Style& style, double lambda, const Gesture& handles)
+      : plan_(plan),
+        lambda_(lambda),
+        points_(points_held(plan, handles)),
+        held_(held_laplacian(plan.last_held, plan.system, points_, plan.given, "Stylize")),
+        steps_(plan.workspaces.lend([&] { return steps_of(plan); })),
+        targets_(targets_of(plan, style)),
+        target_normals_(targets_.find(plan.elements.pairs.vertices)),
+        fitted_(unmoved(plan.system.element_count())),
+        acceleration_(plan.options.acceleration_window) {
+    if (steps_->similarity) keep_size_.emplace(plan, points_);
+    fit_now(plan.elements.pairs.vertices);
+  }
+
+  /// The global step. Gives the energy.
+  double place(Positions& positions) {
+    positions = held_->solve(plan_.system.right_hand_sides(fitted_.matrices), points_);
+    fits_ = false;
+    terms.push_back(terms_at(positions));
+    return sum(terms.back());
+  }
+
+  /// From where the next pass starts: from where several passes lead, if the energy is not higher there.
+  Positions next(const Positions& start, const Positions& end) {
+    Positions next = acceleration_.next(start, end);
+    if (next == end) return next;
+    const StylizeFit before = fitted_;
+    fit_to(next);
+    if (sum(terms_at(next)) <= sum(terms.back())) return next;
+    acceleration_ = Anderson(plan_.options.acceleration_window);
+    fitted_ = before;
+    fits_ = false;
+    return end;
+  }
+
+  /// The local step, unless next() has done it.
+  void fit(const Positions& positions) {
+    if (!fits_) fit_to(positions);
+  }
+
+  GivenNormals targets() const { return as_given(plan_, target_normals_); }
+  const Transforms& matrices() const { return fitted_.matrices; }
+  const HeldLaplacian& held() const { return *held_; }
+
+  std::vector<StylizeTerms> terms;
+
+ private:
+  void fit_to(const Positions& positions) {
+    if (targets_.dynamic) target_normals_ = targets_.find(positions);
+    fit_now(positions);
+  }
+
+  void fit_now(const Positions& positions) {
+    swage::fit(plan_, *steps_, positions, target_normals_, lambda_, fitted_);
+    if (keep_size_) keep_size_->of(plan_, fitted_);
+    fits_ = true;
+  }
+
+  StylizeTerms terms_at(const Positions& positions) const {
+    const double square = plan_.box.extent * plan_.box.extent;
+    const StylizeTerms unit = energy(plan_, positions, target_normals_, fitted_);
+    return {unit.shape * square, unit.normals * square};
+  }
+
+  double sum(const StylizeTerms& of) const { return of.shape + lambda_ * of.normals; }
+
+  StylizePlan& plan_;
+  double lambda_;
+  HeldPoints points_;
+  std::shared_ptr<const HeldLaplacian> held_;
+  Pool<StylizeSteps>::Lease steps_;
+  Targets targets_;
+  Positions target_normals_;
+  StylizeFit fitted_;
+  std::optional<KeepSize> keep_size_;
+  Anderson acceleration_;
+  bool fits_ = false;  // Whether the matrices are of the next start.
+};
+
 StylizeResult solve_prepared(StylizePlan& plan, const Style& style, double lambda, const Gesture& handles,
                              const ProgressFn& progress) {
-  const HeldPoints points = points_held(plan, handles);
-  const std::shared_ptr<const HeldLaplacian> held =
-      held_laplacian(plan.last_held, plan.system, points, plan.given, "Stylize");
-  const auto steps = plan.workspaces.lend([&] { return steps_of(plan); });
-  const Targets targets = targets_of(plan, style);
-
+  Passes passes(plan, style, lambda, handles);
   StylizeResult result;
-  Positions positions = plan.elements.pairs.vertices;
-  Positions target_normals = targets.find(positions);
-  result.first_targets = as_given(plan, target_normals);
-  StylizeFit fitted = unmoved(plan.system.element_count());
-  std::optional<KeepSize> keep_size;
-  if (steps->similarity) keep_size.emplace(plan, points);
-  bool fits = false;  // Whether matrices are of the next start.
-  const auto fit_to = [&](const Positions& placed) {
-    fit(plan, *steps, placed, target_normals, lambda, fitted);
-    if (keep_size) keep_size->of(plan, fitted);
-    fits = true;
+  result.first_targets = passes.targets();
+  Alternation alternation;
+  alternation.place = [&](Positions& placed, const Poll&) { return passes.place(placed); };
+  alternation.fit = [&](const Positions& placed, const Poll&) { passes.fit(placed); };
+  alternation.moved_little = [&](const Positions& start, const Positions& end) {
+    return moved_little(plan, start, end);
   };
-  fit_to(positions);
-  const auto terms_at = [&](const Positions& placed) {
-    StylizeTerms terms = energy(plan, placed, target_normals, fitted);
-    terms.shape *= plan.box.extent * plan.box.extent;
-    terms.normals *= plan.box.extent * plan.box.extent;
-    return terms;
-  };
-  const auto sum = [&](const StylizeTerms& terms) { return terms.shape + lambda * terms.normals; };
-  Anderson acceleration(plan.options.acceleration_window);
-
-  Alternation passes;
-  passes.place = [&](Positions& placed, const Poll&) {
-    placed = held->solve(plan.system.right_hand_sides(fitted.matrices), points);
-    fits = false;
-    result.passes.push_back(terms_at(placed));
-    return sum(result.passes.back());
-  };
-  passes.moved_little = [&](const Positions& start, const Positions& end) { return moved_little(plan, start, end); };
   if (plan.options.acceleration_window > 0) {
-    // As Deform's.
-    passes.next = [&](const Positions& start, const Positions& end, const Poll&) {
-      Positions next = acceleration.next(start, end);
-      if (next == end) return next;
-      const StylizeFit before = fitted;
-      if (targets.dynamic) target_normals = targets.find(next);
-      fit_to(next);
-      if (sum(terms_at(next)) <= sum(result.passes.back())) return next;
-      acceleration = Anderson(plan.options.acceleration_window);
-      fitted = before;
-      fits = false;
-      return end;
+    alternation.next = [&](const Positions& start, const Positions& end, const Poll&) {
+      return passes.next(start, end);
     };
   }
-  passes.fit = [&](const Positions& placed, const Poll&) {
-    if (fits) return;
-    if (targets.dynamic) target_normals = targets.find(placed);
-    fit_to(placed);
-  };
-  result.report = alternate(stop_rule(plan), after_preparation(progress), positions, passes);
+  Positions positions = plan.elements.pairs.vertices;
+  result.report = alternate(stop_rule(plan), after_preparation(progress), positions, alternation);
 
   if (result.report.passes == 0) return cancelled(plan);
-  result.last_targets = as_given(plan, target_normals);
+  result.last_targets = passes.targets();
+  result.passes = std::move(passes.terms);
   const StylizeTerms& last = result.passes.back();
   result.report.energy_by_term = {{"shape", last.shape}, {"normals", lambda * last.normals}};
   const Positions solved = plan.box.back(positions);
-  result.positions = plan.given ? plan.given->back(solved, of_triangles(plan, fitted.matrices)) : solved;
+  result.positions = plan.given ? plan.given->back(solved, of_triangles(plan, passes.matrices())) : solved;
   if (plan.given) plan.given->place_loose(handles, result.positions);
-  tell(plan, *held, result.report);
+  tell(plan, passes.held(), result.report);
   return result;
 }
 

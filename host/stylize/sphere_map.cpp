@@ -40,19 +40,9 @@ void check_topology(const Mesh& style) {
   }
 }
 
-/// Barycentric: a third of the areas around.
-Eigen::VectorXd masses(const Positions& positions, const Triangles& triangles) {
-  const Eigen::VectorXd areas = area_vectors(positions, triangles).rowwise().norm() / 2;
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(positions.rows());
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) result[triangles(t, k)] += areas[t] / 3;
-  }
-  return result;
-}
-
 /// About the surface's centre, of area 1.
 void centre_and_scale(Positions& positions, const Triangles& triangles) {
-  const Eigen::VectorXd mass = masses(positions, triangles);
+  const Eigen::VectorXd mass = barycentric_areas(positions, triangles);
   const double area = mass.sum();
   positions.rowwise() -= (mass.transpose() * positions / area).eval();
   positions /= std::sqrt(area);
@@ -69,7 +59,7 @@ Positions flowed(const Mesh& style, bool scaled) {
   Positions positions = style.positions;
   if (scaled) centre_and_scale(positions, style.triangles);
   for (int step = 0; step < kStepLimit; ++step) {
-    const Eigen::VectorXd mass = masses(positions, style.triangles);
+    const Eigen::VectorXd mass = barycentric_areas(positions, style.triangles);
     SparseMatrix matrix = laplacian;
     matrix.diagonal() += mass;
     factor.factorize(matrix);

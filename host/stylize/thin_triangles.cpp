@@ -21,14 +21,7 @@ constexpr int kRounds = 3;
 constexpr double kPull = 0.3;  // Of the way to the neighbours' mean.
 constexpr double kFree = 1e-9;
 
-double least_angle_of(const Matrix3d& corners) {
-  double least = std::numbers::pi;
-  for (int k = 0; k < 3; ++k) {
-    const RowVector3d a = corners.row((k + 1) % 3) - corners.row(k), b = corners.row((k + 2) % 3) - corners.row(k);
-    least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
-  }
-  return least;
-}
+double least_angle_of(const Matrix3d& corners) { return corner_angles(corners).minCoeff(); }
 
 double least_angle_of(const StylizePlan& plan, const Positions& positions, Index t) {
   return least_angle_of(Matrix3d(positions(plan.mesh.triangles.row(t), Eigen::all)));

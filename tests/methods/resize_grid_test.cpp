@@ -45,29 +45,6 @@ std::vector<NamedMap> maps(const GridShape& shape) {
           {"one cell", one_cell_map(shape)}, {"random", random_map(shape, 3)},    {"car", car_map(shape)}};
 }
 
-/// The trilinear map's derivative in a cell, by the points around, relative to plain scaling.
-double determinant(const GridShape& shape, const AxisValues& vertices, const Eigen::RowVector3d& at,
-                   const Eigen::RowVector3i& cell, const Factors& factors) {
-  constexpr double kStep = 1e-3;
-  Positions points(6, 3);
-  for (int u = 0; u < 3; ++u) {
-    for (int side = 0; side < 2; ++side) {
-      Eigen::RowVector3d part = at * (1 - 2 * kStep) + Eigen::RowVector3d::Constant(kStep);
-      part[u] += side == 0 ? -kStep : kStep;
-      points.row(2 * u + side) = ((cell.cast<double>() + part).array() * shape.size.array() /
-                                  Eigen::RowVector3d(shape.cells[0], shape.cells[1], shape.cells[2]).array()) +
-                                 shape.corner.array();
-    }
-  }
-  const Positions moved = carry(shape, vertices, points);
-  Eigen::Matrix3d jacobian;
-  for (int u = 0; u < 3; ++u) {
-    jacobian.row(u) = (moved.row(2 * u + 1) - moved.row(2 * u)) / (points(2 * u + 1, u) - points(2 * u, u));
-    jacobian.row(u).array() /= factors.array();
-  }
-  return jacobian.determinant();
-}
-
 void expect_sound(const GridShape& shape, const Resized& result, const Factors& factors) {
   const Extents vertices = shape.vertices();
   const AxisValues& positions = result.grid.positions;
@@ -335,42 +312,6 @@ TEST(ResizeGrid, RefusesWhatItCannotTake) {
   expect_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: not finite");
   expect_refused([&] { carry(shape, ones, ones); }, "carry: vertices");
   expect_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: not finite");
-}
-
-TEST(GridCarry, FollowsTheVerticesAndLinearMaps) {
-  const GridShape shape = {{{4, 3, 5}}, {-1, 2, 3}, {6, 5, 4}};
-  const AxisValues rest = rest_vertices(shape);
-  const AxisValues waves = rest + 0.1 * (3 * rest).array().sin().matrix();
-  EXPECT_LT((carry(shape, waves, rest) - waves).cwiseAbs().maxCoeff(), 1e-12);
-  Eigen::Matrix3d linear;
-  linear << 2, 0.1, 0, -0.3, 1, 0.2, 0, 0.4, 0.5;
-  const Positions points = Positions::Random(40, 3) * 9;  // Within and outside.
-  EXPECT_LT((carry(shape, rest * linear, points) - points * linear).cwiseAbs().maxCoeff(), 1e-12);
-  const GridShape flat = {{{4, 1, 5}}, {-1, 2, 3}, {6, 0, 4}};
-  EXPECT_LT((carry(flat, rest_vertices(flat), points) - points).cwiseAbs().maxCoeff(), 1e-12);
-}
-
-TEST(GridFolds, AreFoundWhereAnyPointTurnsOver) {
-  const GridShape shape = {{{1, 1, 1}}, {0, 0, 0}, {2, 3, 4}};
-  int folded = 0, sound = 0;
-  for (unsigned seed = 0; seed < 300; ++seed) {
-    std::srand(seed);
-    const AxisValues vertices = rest_vertices(shape) + 1.2 * AxisValues::Random(8, 3);
-    double least = 1e300;
-    for (int n = 0; n < 7 * 7 * 7; ++n) {
-      const Eigen::RowVector3d at(n % 7 / 6.0, n / 7 % 7 / 6.0, n / 49 / 6.0);
-      least = std::min(least, determinant(shape, vertices, at, {0, 0, 0}, {1, 1, 1}));
-    }
-    const bool found = !folded_cells(shape, vertices, 0).empty();
-    if (least < 0) {
-      EXPECT_TRUE(found) << seed;
-    } else if (least > 0.05) {
-      EXPECT_FALSE(found) << seed;
-    }
-    ++(found ? folded : sound);
-  }
-  EXPECT_GT(folded, 30);
-  EXPECT_GT(sound, 30);
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "cell_maps.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "carry.h"
 
 namespace swage::test {
 namespace {
@@ -118,6 +121,28 @@ CellMap ball_map(const GridShape& shape, double radius) {
   const double size = std::min({shape.cells[0], shape.cells[1], shape.cells[2]});
   touch(shape, {{0.5, 0.5, 0.5}, radius * size}, map);
   return map;
+}
+
+double determinant(const GridShape& shape, const AxisValues& vertices, const Eigen::RowVector3d& at,
+                   const Eigen::RowVector3i& cell, const Eigen::RowVector3d& factors) {
+  constexpr double kStep = 1e-3;
+  Positions points(6, 3);
+  for (int u = 0; u < 3; ++u) {
+    for (int side = 0; side < 2; ++side) {
+      Eigen::RowVector3d part = at * (1 - 2 * kStep) + Eigen::RowVector3d::Constant(kStep);
+      part[u] += side == 0 ? -kStep : kStep;
+      points.row(2 * u + side) = ((cell.cast<double>() + part).array() * shape.size.array() /
+                                  Eigen::RowVector3d(shape.cells[0], shape.cells[1], shape.cells[2]).array()) +
+                                 shape.corner.array();
+    }
+  }
+  const Positions moved = carry(shape, vertices, points);
+  Eigen::Matrix3d jacobian;
+  for (int u = 0; u < 3; ++u) {
+    jacobian.row(u) = (moved.row(2 * u + 1) - moved.row(2 * u)) / (points(2 * u + 1, u) - points(2 * u, u));
+    jacobian.row(u).array() /= factors.array();
+  }
+  return jacobian.determinant();
 }
 
 }  // namespace swage::test

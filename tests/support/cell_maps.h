@@ -23,4 +23,8 @@ CellMap car_map(const GridShape& shape);
 /// A ball about the middle of the grid, of a radius in units of its least size.
 CellMap ball_map(const GridShape& shape, double radius);
 
+/// The trilinear map's derivative in a cell, by the points around, relative to plain scaling.
+double determinant(const GridShape& shape, const AxisValues& vertices, const Eigen::RowVector3d& at,
+                   const Eigen::RowVector3i& cell, const Eigen::RowVector3d& factors);
+
 }  // namespace swage::test
