@@ -1,10 +1,12 @@
 // Resizing, of grids alone: a car's map on the grids of the paper's table 1. `first`: from the map to the vertices.
 // `again`: by other factors, on what is prepared; `scales` and `assembly` of it. Counters: iterations of conjugate
-// gradients, rounds at the bounds.
+// gradients, rounds at the bounds, entries there.
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "assemble.h"
 #include "bench_main.h"
@@ -25,9 +27,13 @@ GridShape shape_of(const Setting& setting) {
   return test::unit_cells(setting.cells[0], setting.cells[1], setting.cells[2]);
 }
 
-void count(benchmark::State& state, const std::string& of, int iterations, int rounds) {
-  state.counters[of + "_iterations"] = iterations;
-  state.counters[of + "_rounds"] = rounds;
+/// `found`: Scales or GridVertices.
+template <typename Found>
+void count(benchmark::State& state, const std::string& of, const Found& found) {
+  state.counters[of + "_iterations"] = found.iterations;
+  state.counters[of + "_rounds"] = found.rounds;
+  state.counters[of + "_at_bound"] = static_cast<double>(found.at_bound);
+  state.counters[of + "_converged"] = found.converged ? 1 : 0;
 }
 
 void first(benchmark::State& state, const Setting& setting) {
@@ -55,7 +61,7 @@ void scales(benchmark::State& state, const Setting& setting) {
   const ScaleSolve solve(shape, test::car_map(shape));
   Scales found;
   for (auto _ : state) found = solve.solve(setting.factors);
-  count(state, "scale", found.iterations, found.rounds);
+  count(state, "scale", found);
 }
 
 void assembly(benchmark::State& state, const Setting& setting) {
@@ -65,34 +71,47 @@ void assembly(benchmark::State& state, const Setting& setting) {
   const Assembly assembly(shape, map);
   GridVertices found;
   for (auto _ : state) found = assembly.place(scales.values, setting.factors);
-  count(state, "assembly", found.iterations, found.rounds);
+  count(state, "assembly", found);
   state.counters["stiffened"] = found.stiffened;
 }
+
+void add(const std::string& grid, const std::string& name, const Setting& setting) {
+  const auto one = [&](const char* what, auto run) {
+    benchmark::RegisterBenchmark((what + grid + "/" + name).c_str(),
+                                 [=](benchmark::State& state) { run(state, setting); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  };
+  one("first", first);
+  one("again", again);
+  one("scales", scales);
+  one("assembly", assembly);
+}
+
+using Stretch = std::pair<std::string, Factors>;
 
 }  // namespace
 
 void register_all() {
-  const std::array<std::array<int, 3>, 3> grids = {{{80, 52, 50}, {20, 20, 57}, {60, 60, 60}}};
-  const std::array<std::pair<const char*, Factors>, 4> stretches = {
-      {{"1.4", {1.4, 1, 1}}, {"2", {2, 1, 1}}, {"half", {1, 0.5, 1}}, {"third_and_thrice", {0.3, 1, 3}}}};
-  for (const auto& [x, y, z] : grids) {
-    for (const auto& [name, factors] : stretches) {
-      const Setting setting = {{x, y, z}, factors};
-      std::string of;
-      for (const int along : {x, y, z}) of += (of.empty() ? '/' : 'x') + std::to_string(along);
-      of.append("/").append(name);
-      const auto add = [&](const char* what, auto run) {
-        benchmark::RegisterBenchmark((std::string(what) + of).c_str(),
-                                     [=](benchmark::State& state) { run(state, setting); })
-            ->Unit(benchmark::kMillisecond)
-            ->UseRealTime();
-      };
-      add("first", first);
-      add("again", again);
-      add("scales", scales);
-      add("assembly", assembly);
+  const std::vector<Stretch> mild = {
+      {"1.4", {1.4, 1, 1}}, {"2", {2, 1, 1}}, {"half", {1, 0.5, 1}}, {"third_and_thrice", {0.3, 1, 3}}};
+  std::vector<Stretch> strong = {mild.back()};
+  for (int u = 0; u < 3; ++u) {
+    for (const auto& [name, factor] : {std::pair{"twentieth_", 0.05}, {"twenty_", 20.0}}) {
+      Factors factors(1, 1, 1);
+      factors[u] = factor;
+      strong.emplace_back(std::string(name) + "xyz"[u], factors);
     }
   }
+  const auto add_all = [](const std::array<int, 3>& cells, const std::vector<Stretch>& stretches) {
+    std::string grid;
+    for (const int along : cells) grid += (grid.empty() ? '/' : 'x') + std::to_string(along);
+    for (const auto& [name, factors] : stretches) add(grid, name, {cells, factors});
+  };
+  add_all({80, 52, 50}, mild);
+  add_all({20, 20, 57}, mild);
+  add_all({60, 60, 60}, mild);
+  add_all({60, 40, 30}, strong);
 }
 
 }  // namespace swage::bench
