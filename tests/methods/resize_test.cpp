@@ -95,6 +95,8 @@ TEST(Resize, TellsWhereSizeCannotBeKept) {
   Protection most;
   most.box = Eigen::AlignedBox3d(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4.8, 2, 2));
   plan.protect(most);
+  EXPECT_THAT(plan.solve(by(0.9, 1, 1)).report.warnings, testing::IsEmpty());
+  EXPECT_THAT(plan.solve(by(0.5, 1, 1)).report.warnings, Contains(HasSubstr("larger than the new size")));
   const ResizeResult shrunk = plan.solve(by(0.5, 1, 1, ResizeKeep::size));
   EXPECT_THAT(shrunk.report.warnings, Contains(HasSubstr("0.8 of the box, and 0.5 is asked for")));
   EXPECT_GT(shrunk.least_scale, 0);
