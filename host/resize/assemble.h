@@ -10,6 +10,8 @@
 
 namespace swage {
 
+constexpr double kLeastVulnerability = 1e-3;
+
 struct AssemblyOptions {
   double tolerance = 1e-6;  ///< Part of the error that may be left, in (0, 1).
 };

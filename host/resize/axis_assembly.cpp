@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assemble.h"
+
 namespace swage {
 namespace {
 
 using Eigen::Index;
 using Vector = Values<double>;
 
-constexpr double kLeastVulnerability = 1e-3;
 constexpr int kIterationLimit = 500;  // Of a round.
 constexpr int kRoundLimit = 200;
 constexpr double kLoose = 1e-3;  // The tolerance while edges still come to the bound and leave it.

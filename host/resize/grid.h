@@ -10,6 +10,9 @@ namespace swage {
 constexpr double kLeastScale = 0.1;
 constexpr double kLeastEdge = 0.05;
 
+/// Along axes whose cells are chosen.
+constexpr int kFewestCells = 5;
+
 /// Throws InvalidInput, naming `caller`, the argument and the cell.
 void check(const char* caller, const GridShape& shape, const CellMap& map);
 /// Factors along axes of no extent may be anything.

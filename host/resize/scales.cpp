@@ -15,8 +15,6 @@ namespace {
 using Eigen::Index;
 using Vector = Values<double>;
 
-constexpr double kCompatibility = 4.0 / 3;
-constexpr double kLeastModulation = 1e-4;
 constexpr int kIterationLimit = 500;  // Of a round.
 constexpr int kRoundLimit = 200;
 constexpr double kRounding = 1e-14;
@@ -64,13 +62,22 @@ struct ScaleWork {
 
 }  // namespace
 
+double unit_scale(const GridShape& shape, const Eigen::RowVector3d& factors) {
+  double least = INFINITY, most = 0;
+  for (int u = 0; u < 3; ++u) {
+    if (!shape.extends(u)) continue;
+    least = std::min(least, factors[u]);
+    most = std::max(most, factors[u]);
+  }
+  return least <= most ? std::clamp(1.0, least, most) : 1;
+}
+
 struct ScaleSolve::Plan {
   GridShape shape;
   CellMap map;
   ScaleMatrix<double> matrix;
   Pool<ScaleWork> works = {};
 
-  double unit(const Eigen::RowVector3d& factors) const;
   void fill(ScaleWork& work, const Eigen::RowVector3d& factors, double unit, double size_weight) const;
   Gradients improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
                     const Poll& poll) const;
@@ -89,16 +96,6 @@ void ScaleSolve::Plan::each_row(const Work& work) const {
 #pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
     for (Index row = 0; row < rows; ++row) work(u, row / stride * stride * shape.cells[u] + row % stride, stride);
   }
-}
-
-double ScaleSolve::Plan::unit(const Eigen::RowVector3d& factors) const {
-  double least = INFINITY, most = 0;
-  for (int u = 0; u < 3; ++u) {
-    if (!shape.extends(u)) continue;
-    least = std::min(least, factors[u]);
-    most = std::max(most, factors[u]);
-  }
-  return least <= most ? std::clamp(1.0, least, most) : 1;
 }
 
 void ScaleSolve::Plan::fill(ScaleWork& work, const Eigen::RowVector3d& factors, double unit, double size_weight) const {
@@ -244,7 +241,7 @@ Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& op
   const Index count = plan_->shape.cells.count();
 
   // Vulnerable cells that are to keep their size are to have the scale 1, whatever the factors.
-  plan_->fill(*work, factors, options.size_weight > 0 ? 1 : plan_->unit(factors), options.size_weight);
+  plan_->fill(*work, factors, options.size_weight > 0 ? 1 : unit_scale(plan_->shape, factors), options.size_weight);
   AtBound at_bound(static_cast<size_t>(3 * count), 0);
   BlockPivoting pivoting;
   Scales result;

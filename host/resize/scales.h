@@ -10,6 +10,12 @@
 
 namespace swage {
 
+constexpr double kCompatibility = 4.0 / 3;
+constexpr double kLeastModulation = 1e-4;
+
+/// g: 1 where it is between the factors, else the factor nearest to it.
+double unit_scale(const GridShape& shape, const Eigen::RowVector3d& factors);
+
 struct ScaleOptions {
   /// What a vulnerable cell pays for changing its size, theta (s - 1)² times this. 0: vulnerable cells keep their shape
   /// and may grow or shrink.

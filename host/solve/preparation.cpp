@@ -2,12 +2,12 @@
 
 namespace swage {
 
-Preparation::Preparation(const ProgressFn& progress, int pass_limit)
-    : progress_(progress), now_{"", 0, pass_limit, 0, 0}, poll_(sparing([this] { return goes_on(); })) {}
+Stages::Stages(const ProgressFn& progress, int pass_limit, double whole)
+    : progress_(progress), now_{"", 0, pass_limit, 0, 0}, whole_(whole), poll_(sparing([this] { return goes_on(); })) {}
 
-void Preparation::begin(const char* stage, double part) {
+void Stages::begin(const char* stage, double part) {
   now_.stage = stage;
-  now_.fraction = part * kPrepared;
+  now_.fraction = part * whole_;
   if (!goes_on()) throw Cancelled();
 }
 

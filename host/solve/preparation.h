@@ -11,14 +11,15 @@ namespace swage {
 /// Of a whole call's progress, what preparation is.
 constexpr double kPrepared = 0.2;
 
-/// The stages of a preparation, told as the first part of a call's progress.
-class Preparation {
+/// Stages of work, told as the first part of a call's progress, and ended where the caller cancels.
+class Stages {
  public:
-  Preparation(const ProgressFn& progress, int pass_limit);
-  Preparation(const Preparation&) = delete;
-  Preparation& operator=(const Preparation&) = delete;
+  /// `whole`: what all of them are of the call.
+  Stages(const ProgressFn& progress, int pass_limit, double whole);
+  Stages(const Stages&) = delete;
+  Stages& operator=(const Stages&) = delete;
 
-  /// `part` of the preparation is done. Throws Cancelled.
+  /// `part` of all stages is done. Throws Cancelled.
   void begin(const char* stage, double part);
   /// Within a stage.
   const Poll& poll() const { return poll_; }
@@ -28,7 +29,13 @@ class Preparation {
 
   const ProgressFn& progress_;
   Progress now_;
+  double whole_;
   Poll poll_;
+};
+
+class Preparation : public Stages {
+ public:
+  Preparation(const ProgressFn& progress, int pass_limit) : Stages(progress, pass_limit, kPrepared) {}
 };
 
 /// Progress of what comes after the preparation.

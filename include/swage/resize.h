@@ -21,9 +21,9 @@ namespace swage {
 struct VulnerabilityOptions {
   double crease_angle = std::numbers::pi * 150 / 180;  ///< Interior dihedral angle, radians, [0, pi]: sharper edges
                                                        ///< are creases, not curvature.
-  double slippage_limit = 0.1;        ///< |n · u|, in (0, 1], from which a face counts as wholly vulnerable.
-  double curvature_limit = 1.0 / 3;   ///< The same of its normal curvature along u, in 1 / box diagonals, above 0.
-  double least_curvature = 1e-4;      ///< epsilon_kappa, [0, 1]: what curvature counts as at least.
+  double slippage_limit = 0.1;       ///< |n · u|, in (0, 1], from which a face counts as wholly vulnerable.
+  double curvature_limit = 1.0 / 3;  ///< The same of its normal curvature along u, in 1 / box diagonals, above 0.
+  double least_curvature = 1e-4;     ///< epsilon_kappa, [0, 1]: what curvature counts as at least.
 };
 
 /// How vulnerable each triangle is to scaling along each axis, #F × 3 each, in [0, 1] (paper section 4).
@@ -60,7 +60,7 @@ struct ResizeTarget {
   Eigen::RowVector3d factors{1, 1, 1};  ///< The new size of the box over the old, each in [1e-6, 1e6]. Along axes in
                                         ///< which the model has no extent they mean nothing.
   ResizeKeep keep = ResizeKeep::shape;
-  double size_weight = 1;               ///< Of ResizeKeep::size, above 0: times what each cell pays.
+  double size_weight = 1;  ///< Of ResizeKeep::size, above 0: times what each cell pays.
   std::array<ResizeAnchor, 3> anchors = {ResizeAnchor::low, ResizeAnchor::low, ResizeAnchor::low};
 };
 
