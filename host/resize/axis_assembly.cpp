@@ -11,21 +11,21 @@ namespace {
 using Eigen::Index;
 using Vector = Values<double>;
 
-constexpr int kIterationLimit = 500;  // Of a round.
+constexpr int kIterationLimit = 50;  // Of a round.
 constexpr int kRoundLimit = 200;
-constexpr double kLoose = 1e-3;  // The tolerance while edges still come to the bound and leave it.
 constexpr double kRounding = 1e-14;
 
 /// Adds each cell's value to the four edges along `axis` that bound it, told by their first vertices.
 void add_to_edges(const TurnedGrid& grid, int axis, const Vector& cells, Vector& edges) {
   const Extents& count = grid.cells;
   const Index a = grid.vertices.stride(next(axis)), b = grid.vertices.stride(next(next(axis)));
-  for (int k = 0; k < count[2]; ++k) {
-    for (int j = 0; j < count[1]; ++j) {
-      for (int i = 0; i < count[0]; ++i) {
-        const Index first = grid.vertices.at(i, j, k);
-        const double value = cells[count.at(i, j, k)];
-        for (const Index at : {first, first + a, first + b, first + a + b}) edges[at] += value;
+  for (int parity = 0; parity < 2; ++parity) {  // Layers that share no edge.
+#pragma omp parallel for schedule(static) if (cells.size() > kManyEntries)
+    for (int k = parity; k < count[2]; k += 2) {
+      for (int j = 0; j < count[1]; ++j) {
+        const Index first = grid.vertices.at(0, j, k);
+        const auto row = cells.segment(count.at(0, j, k), count[0]);
+        for (const Index at : {first, first + a, first + b, first + a + b}) edges.segment(at, count[0]) += row;
       }
     }
   }
@@ -35,10 +35,11 @@ Vector turned(const TurnedGrid& grid, const Eigen::VectorXd& values) {
   Vector result(values.size());
   Extents cells = grid.cells;  // As they were.
   for (int axis = 0; axis < 3; ++axis) cells[(axis + grid.axis + 1) % 3] = grid.cells[axis];
-  Index c = 0;
+#pragma omp parallel for schedule(static) if (values.size() > kManyEntries)
   for (int k = 0; k < cells[2]; ++k) {
     for (int j = 0; j < cells[1]; ++j) {
-      for (int i = 0; i < cells[0]; ++i) result[grid.cell(i, j, k)] = values[c++];
+      const Index first = grid.cell(0, j, k), stride = cells[0] > 1 ? grid.cell(1, j, k) - first : 1;
+      for (int i = 0; i < cells[0]; ++i) result[first + i * stride] = values[cells.at(i, j, k)];
     }
   }
   return result;
@@ -52,7 +53,7 @@ LineMatrix<double> matrix_of(const TurnedGrid& grid, const Vector& theta, const 
     weights.setZero(grid.vertices.count());
     add_to_edges(grid, axis, axis == 2 ? theta : phi, weights);
   }
-  matrix.sum_diagonal();
+  matrix.sum_across();
   return matrix;
 }
 
@@ -88,81 +89,90 @@ void AxisAssembly::pull(const Eigen::VectorXd& scales, double factor, AxisWork& 
 /// Brings tied vertices as far apart as edges at the bound are long, about where they were.
 void AxisAssembly::tie(double least, AxisWork& work) const {
   Ties& ties = work.levels.ties;
-  ties.find_lines();
-  for (const Index line : ties.lines) {
-    ties.each_block(line, [&](Index first, Index last) {
-      const auto at = [&](Index i) -> double& { return work.change[line + i * ties.layer]; };
-      double offset = 0;
-      for (Index i = first; i <= last; ++i) offset += at(i) - least * static_cast<double>(i - first);
-      offset /= static_cast<double>(last - first + 1);
-      if (first == 0) offset = 0;
-      if (last == ties.count - 1) offset = -least * static_cast<double>(last - first);
-      for (Index i = first; i <= last; ++i) at(i) = offset + least * static_cast<double>(i - first);
-    });
-  }
+  ties.find_blocks();
+  ties.each_block([&](const Ties::Block& block, const auto& vertex) {
+    double offset = 0;
+    for (Index i = 0; i < block.count; ++i) offset += work.change[vertex(i)] - least * static_cast<double>(i);
+    offset /= static_cast<double>(block.count);
+    if (block.low) offset = 0;
+    if (block.high) offset = -least * static_cast<double>(block.count - 1);
+    for (Index i = 0; i < block.count; ++i) work.change[vertex(i)] = offset + least * static_cast<double>(i);
+  });
   levels_.tie(work.levels);
+  matrix_.subtract(work.side, work.change, work.rest);
 }
 
-Gradients AxisAssembly::improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const {
+Correction AxisAssembly::improve(Approach& approach, const Poll& poll, AxisWork& work) const {
   const Ties& ties = work.levels.ties;
-  const auto times_matrix = [&](const Vector& x, Vector& product) {
+  const auto times_matrix = [&](const Values<float>& x, Values<float>& product) {
     ask(poll);
-    matrix_.multiply(x, product);
+    const double bend = levels_.finest().multiply(x, product);
     ties.keep(product);
+    return bend;
   };
-  const auto precondition = [&](const Vector& residual, Vector& error) {
+  const auto precondition = [&](const Values<float>& residual, Values<float>& error) {
     levels_.cycle(residual, error, work.levels);
-    ties.keep(error);
   };
-  Vector side = work.side;
-  ties.keep(side);
-  times_matrix(work.change, work.image);
-  work.image = side - work.image;
-  precondition(work.image, work.gradients.error);
-  const double square = product(work.image, work.gradients.error);
-  // What it would be if all vertices were off by rounding: nothing is to be gained below.
-  const double off = kRounding * factor * grid_.cells[2];
-  if (work.first_square < 0) work.first_square = square;
-  const double first = work.first_square;
-  if (square <= std::max(tolerance * tolerance * first, off * off * matrix_.diagonal.sum())) return {0, true};
-  return conjugate_gradients(times_matrix, precondition, side, tolerance * std::sqrt(first / square), kIterationLimit,
-                             work.change, work.gradients);
+  work.kept = work.rest;
+  ties.keep(work.kept);
+  work.correction.residual = work.kept.cast<float>();
+  const Correction correction = correct(
+      times_matrix, precondition, [&](double square) { return approach.enough(square); }, kIterationLimit,
+      work.correction);
+  work.change += work.correction.change.cast<double>();
+  matrix_.subtract(work.side, work.change, work.rest);
+  return correction;
 }
 
-/// Of each edge at the bound its multiplier, of others how far they are from it. Edges are told by their first vertex.
-Eigen::ArrayXd AxisAssembly::measure(double least, AxisWork& work) const {
+/// Of each edge at the bound its multiplier, of others how far they are from it; as parts of what may be off. Edges are
+/// told by their first vertex.
+void AxisAssembly::measure(double least, const Approach& approach, AxisWork& work) const {
   const Ties& ties = work.levels.ties;
   const Index layer = ties.layer, edges = layer * (ties.count - 1);
-  Eigen::ArrayXd result = work.change.segment(layer, edges).array() - work.change.head(edges).array() - least;
-  if (ties.lines.empty()) return result;
-  matrix_.multiply(work.change, work.image);
-  work.image -= work.side;
-  for (const Index line : ties.lines) {
-    const auto slope = [&](Index i) { return work.image[line + i * layer]; };
-    ties.each_block(line, [&](Index first, Index last) {
-      double multiplier = 0;
-      if (first > 0) {
-        for (Index i = first; i < last; ++i) result[line + i * layer] = multiplier -= slope(i);
-      } else {  // The first vertex is held by the outer face as well.
-        for (Index i = last; i > first; --i) result[line + (i - 1) * layer] = multiplier += slope(i);
+  const Values<float>& error = work.correction.error;
+  const double off = (error.tail(edges) - error.head(edges)).cwiseAbs().maxCoeff();
+  const auto change = work.change.array();
+  work.measure = (change.tail(edges) - change.head(edges) - least) /
+                 (approach.negligible(1) / matrix_.weights[2].head(edges).array().sqrt()).max(off);
+  ties.each_block([&](const Ties::Block& block, const auto& vertex) {
+    double multiplier = 0;
+    const auto put = [&](Index edge) {
+      const double weight = 0.5 * (matrix_.diagonal(edge) + matrix_.diagonal(edge + layer));
+      const double negligible = std::max(weight * off, approach.negligible(1) * std::sqrt(matrix_.weights[2][edge]));
+      work.measure[edge] = multiplier / negligible;
+    };
+    if (!block.low) {
+      for (Index i = 0; i + 1 < block.count; ++i) {
+        multiplier += work.rest[vertex(i)];
+        put(vertex(i));
       }
-    });
-  }
-  return result;
+    } else {  // The first vertex is held by the outer face as well.
+      for (Index i = block.count - 1; i > 0; --i) {
+        multiplier -= work.rest[vertex(i)];
+        put(vertex(i - 1));
+      }
+    }
+  });
 }
 
-/// Draws lines that pass the bound towards plain scaling until they do not: what tolerances left.
+/// Brings edges that tolerances left below the bound to it, at the cost of the others of their lines.
 void AxisAssembly::pull_in(double least, AxisWork& work) const {
   const Index layer = matrix_.layer();
 #pragma omp parallel for schedule(static) if (work.change.size() > kManyEntries)
   for (Index line = 0; line < layer; ++line) {
-    double part = 1;
+    const auto change = [&](Index i) -> double& { return work.change[line + i * layer]; };
+    double below = 0, above = 0;
     for (Index i = 0; i + 1 < grid_.vertices[2]; ++i) {
-      const double edge = work.change[line + (i + 1) * layer] - work.change[line + i * layer];
-      if (edge < least) part = std::min(part, least / edge);
+      const double way = change(i + 1) - change(i) - least;
+      (way < 0 ? below : above) += std::abs(way);
     }
-    if (part == 1) continue;
-    for (Index i = 0; i < grid_.vertices[2]; ++i) work.change[line + i * layer] *= part;
+    if (below == 0) continue;
+    double before = change(0);
+    for (Index i = 0; i + 2 < grid_.vertices[2]; ++i) {
+      const double way = change(i + 1) - before - least;
+      before = change(i + 1);
+      change(i + 1) = change(i) + least + std::max(way, 0.0) * (1 - below / above);
+    }
   }
 }
 
@@ -171,25 +181,28 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
   pull(scales, factor, work);
   if (!again) {
     work.change.setZero(work.side.size());
-    work.levels.ties.at_bound.assign(static_cast<size_t>(matrix_.layer() * grid_.cells[2]), 0);
-    work.first_square = -1;
+    work.first = -1;
   }
+  levels_.start(work.levels, !again);
+  // What the error's square would be if all vertices were off by rounding.
+  const double off = kRounding * factor * grid_.cells[2];
+  Approach approach(tolerance, off * off * (matrix_.across.sum() + 2 * matrix_.weights[2].sum()), work.first);
   const double bound = kLeastEdge * std::min(1.0, factor), least = bound - factor;
   BlockPivoting pivoting;
   AxisResult result;
-  double now = std::max(kLoose, tolerance);
-  while (true) {
-    tie(least, work);
-    const Gradients gradients = improve(factor, now, poll, work);
-    result.iterations += gradients.iterations;
-    result.converged = gradients.converged && result.rounds < kRoundLimit;
-    if (!pivoting.exchange(measure(least, work), 10 * now * bound, work.levels.ties.at_bound)) {
-      if (now <= tolerance) break;
-      now = tolerance;
-      continue;
-    }
-    if (result.rounds++ == kRoundLimit) break;
+  for (bool changed = true; true;) {
+    if (changed) tie(least, work);
+    const Correction correction = improve(approach, poll, work);
+    result.iterations += correction.iterations;
+    result.converged = approach.there(correction);
+    measure(least, approach, work);
+    changed = pivoting.exchange(work.measure, 1, work.levels.ties.at_bound);
+    if (!changed && (result.converged || !correction.gained())) break;
+    result.converged = false;
+    if (changed && result.rounds++ == kRoundLimit) break;
+    if (pivoting.stalled() && approach.tighten()) pivoting = {};  // It may be what solves leave that goes round.
   }
+  work.first = approach.first();
   pull_in(least, work);
   result.at_bound = std::count(work.levels.ties.at_bound.begin(), work.levels.ties.at_bound.end(), 1);
   return result;

@@ -6,7 +6,7 @@
 
 #include "bounded.h"
 #include "cancel.h"
-#include "conjugate_gradients.h"
+#include "correction.h"
 #include "line_levels.h"
 
 namespace swage {
@@ -48,8 +48,8 @@ class AxisAssembly {
 
   void pull(const Eigen::VectorXd& scales, double factor, AxisWork& work) const;
   void tie(double least, AxisWork& work) const;
-  Gradients improve(double factor, double tolerance, const Poll& poll, AxisWork& work) const;
-  Eigen::ArrayXd measure(double least, AxisWork& work) const;
+  Correction improve(Approach& approach, const Poll& poll, AxisWork& work) const;
+  void measure(double least, const Approach& approach, AxisWork& work) const;
   void pull_in(double least, AxisWork& work) const;
 
   TurnedGrid grid_;
@@ -62,9 +62,11 @@ struct AxisWork {
   explicit AxisWork(const AxisAssembly& of) : levels(of.levels().work()) {}
 
   LineWork levels;
-  GradientsWork<Values<double>> gradients;
-  Values<double> side, change, image;
-  double first_square = -1;  // Of the error at first, in the norm of the preconditioner.
+  CorrectionWork correction;
+  Values<double> side, change, rest;  // Rest: what the change leaves of the side.
+  Values<double> kept;                // The same, of tied vertices together.
+  Eigen::ArrayXd measure;
+  double first = -1;  // Of the approach.
 };
 
 }  // namespace swage

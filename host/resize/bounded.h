@@ -29,6 +29,7 @@ class BlockPivoting {
     }
     if (wrong == 0) return false;
     const bool all = wrong < fewest_ || tries_ > 0;
+    stalled_ = !all;
     tries_ = wrong < fewest_ ? kTries : tries_ - 1;
     fewest_ = std::min(fewest_, wrong);
     for (Eigen::Index e = all ? 0 : last; e <= last; ++e) {
@@ -37,10 +38,14 @@ class BlockPivoting {
     return true;
   }
 
+  /// Whether only the last one changed sides, as more would not make them fewer.
+  bool stalled() const { return stalled_; }
+
  private:
   static constexpr int kTries = 10;
   Eigen::Index fewest_ = std::numeric_limits<Eigen::Index>::max();
   int tries_ = 0;
+  bool stalled_ = false;
 };
 
 }  // namespace swage

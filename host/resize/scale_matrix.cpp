@@ -8,21 +8,31 @@ namespace {
 
 using Eigen::Index;
 
-// So many rows side by side are summed at once.
-constexpr Index kSide = 256;
-
-constexpr Index kStencils = 4096;  // So many in a row are worked at once.
-
-bool large(const ScaleLayout& layout) { return layout.size > 3 * kManyEntries; }
-
+/// Takes from the products what the entries between two lines couple.
 template <typename Scalar>
-auto part(const Values<Scalar>& values, Index begin, Index count) {
-  return values.segment(begin, count).array();
+void couple(const Scalar* entries, const Scalar* a, const Scalar* b, Index count, Scalar* __restrict of_a,
+            Scalar* __restrict of_b) {
+  for (Index i = 0; i < count; ++i) {
+    of_a[i] -= entries[i] * b[i];
+    of_b[i] -= entries[i] * a[i];
+  }
 }
 
-template <typename Scalar>
-auto part(const Scalar* values, Index count) {
-  return Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>(values, count);
+/// The same, where so many of the line a are merged in one of b.
+template <typename Scalar, typename Width>
+void couple_merged(const Scalar* entries, const Scalar* a, const Scalar* b, Index count, Width width,
+                   Scalar* __restrict of_a, Scalar* __restrict of_b) {
+  const auto one = [&](Index group, Index end) {
+    Scalar sum = 0;
+    for (Index i = group * width; i < end; ++i) {
+      of_a[i] -= entries[i] * b[group];
+      sum += entries[i] * a[i];
+    }
+    of_b[group] -= sum;
+  };
+  const Index groups = count / width;
+  for (Index group = 0; group < groups; ++group) one(group, (group + 1) * width);
+  if (groups * width < count) one(groups, count);
 }
 
 }  // namespace
@@ -57,164 +67,121 @@ Extents ScaleMatrix<Scalar>::pair_extents(int p) const {
   return extents;
 }
 
+/// The lines of scales that couple with each other alone but for neighbours: one along x of those along x, and of those
+/// along y and z as many as are merged in it. Lines of those along y lie one after another.
 template <typename Scalar>
-void ScaleMatrix<Scalar>::multiply(const Values<Scalar>& x, Values<Scalar>& product) const {
+struct ScaleMatrix<Scalar>::Block {
+  Block(const ScaleMatrix& matrix, Index number) {
+    const ScaleLayout& layout = matrix.layout;
+    const auto& [x, y, z] = layout.extents;
+    const int j = static_cast<int>(number % x[1]), k = static_cast<int>(number / x[1]), width = 1 << layout.halvings;
+    const int first_y = j * width, first_z = k * width;
+    count_y = std::min(width, y[1] - first_y);
+    count_z = std::min(width, z[2] - first_z);
+    length_x = x[0];
+    length = y[0];
+    line_x = layout.begins[0] + x.at(0, j, k);
+    line_y = layout.begins[1] + y.at(0, first_y, k);
+    line_z = layout.begins[2] + z.at(0, j, first_z);
+    stride_z = z.stride(2);
+    xy = matrix.pairs[0].data() + matrix.pair_extents(0).at(0, first_y, k);
+    yz = matrix.pairs[1].data() + matrix.pair_extents(1).at(0, first_y, first_z);
+    zx = matrix.pairs[2].data() + matrix.pair_extents(2).at(0, j, first_z);
+    stride_yz = matrix.pair_extents(1).stride(2);
+    stride_zx = matrix.pair_extents(2).stride(2);
+  }
+
+  template <typename Work>
+  void each_stretch(const Work& work) const {
+    work(0, line_x, length_x);
+    work(1, line_y, count_y * length);
+    for (Index k = 0; k < count_z; ++k) work(2, line_z + k * stride_z, length);
+  }
+
+  Index count_y, count_z, length_x, length, line_x, line_y, line_z, stride_z;
+  const Scalar *xy, *yz, *zx;  // Entries of pairs.
+  Index stride_yz, stride_zx;
+};
+
+template <typename Scalar>
+void ScaleMatrix<Scalar>::stencil(int u, Index at, Index count, const Scalar* x, Scalar* __restrict product) const {
+  const Extents& extents = layout.extents[static_cast<size_t>(u)];
+  const Index a = extents.stride(next(u)), b = extents.stride(next(next(u)));
+  const Scalar *beyond = own.data(), *to_a = weights[0].data(), *to_b = weights[1].data();
+  // So written that little is lost where neighbours have about the same.
+  for (Index i = at; i < at + count; ++i) {
+    product[i] = beyond[i] * x[i] + to_a[i] * (x[i] - x[i + a]) + to_a[i - a] * (x[i] - x[i - a]) +
+                 to_b[i] * (x[i] - x[i + b]) + to_b[i - b] * (x[i] - x[i - b]);
+  }
+}
+
+/// What is coupled within a cell, and in what is merged.
+template <typename Scalar>
+void ScaleMatrix<Scalar>::couple_axes(const Block& block, const Scalar* x, Scalar* product) const {
+  const auto with_x = [&](const Scalar* entries, Index other) {
+    const auto merged = [&](auto width) {
+      couple_merged(entries, x + block.line_x, x + other, block.length_x, width, product + block.line_x,
+                    product + other);
+    };
+    switch (layout.halvings) {  // Of a width that the compiler knows where much is to be done.
+      case 0:
+        return couple(entries, x + block.line_x, x + other, block.length, product + block.line_x, product + other);
+      case 1:
+        return merged(std::integral_constant<Index, 2>());
+      case 2:
+        return merged(std::integral_constant<Index, 4>());
+      case 3:
+        return merged(std::integral_constant<Index, 8>());
+      default:
+        return merged(Index{1} << layout.halvings);
+    }
+  };
+  for (Index j = 0; j < block.count_y; ++j) {
+    with_x(block.xy + j * block.length_x, block.line_y + j * block.length);
+  }
+  for (Index k = 0; k < block.count_z; ++k) {
+    const Index line_z = block.line_z + k * block.stride_z;
+    with_x(block.zx + k * block.stride_zx, line_z);
+    for (Index j = 0; j < block.count_y; ++j) {
+      const Index line_y = block.line_y + j * block.length;
+      couple(block.yz + k * block.stride_yz + j * block.length, x + line_y, x + line_z, block.length, product + line_y,
+             product + line_z);
+    }
+  }
+}
+
+/// Makes the product block by block; `finish` is called with where a stretch of it begins, its length and its block's
+/// number when it is done.
+template <typename Scalar>
+template <typename Finish>
+void ScaleMatrix<Scalar>::each_block(const Values<Scalar>& x, Values<Scalar>& product, const Finish& finish) const {
   if (product.size() != layout.size) product.setZero(layout.size);
-#pragma omp parallel if (large(layout))
-  for (size_t u = 0; u < 3; ++u) {
-    const Extents& extents = layout.extents[u];
-    const int v = next(static_cast<int>(u)), w = next(v);
-    const Index a = extents.stride(v), b = extents.stride(w);
-#pragma omp for schedule(static) nowait
-    for (Index begin = 0; begin < extents.count(); begin += kStencils) {
-      const Index at = layout.begins[u] + begin, count = std::min(kStencils, extents.count() - begin);
-      product.segment(at, count).array() = part(diagonal, at, count) * part(x, at, count) -
-                                           part(weights[0], at, count) * part(x, at + a, count) -
-                                           part(weights[0], at - a, count) * part(x, at - a, count) -
-                                           part(weights[1], at, count) * part(x, at + b, count) -
-                                           part(weights[1], at - b, count) * part(x, at - b, count);
-      if (layout.halvings > 0) continue;
-      const auto before = static_cast<size_t>(w), after = static_cast<size_t>(v);
-      product.segment(at, count).array() -=
-          part(pairs[u], begin, count) * part(x, layout.begins[after] + begin, count) +
-          part(pairs[before], begin, count) * part(x, layout.begins[before] + begin, count);
-    }
-  }
-  if (layout.halvings == 0) return;
-  for (int p = 0; p < 3; ++p) multiply_pairs(p, x, product);
-}
-
-template <typename Scalar>
-void ScaleMatrix<Scalar>::multiply_pairs(int p, const Values<Scalar>& x, Values<Scalar>& product) const {
-  const int q = next(p), third = next(q);
-  const Extents cells = pair_extents(p);
-  const Extents &of_p = layout.extents[static_cast<size_t>(p)], &of_q = layout.extents[static_cast<size_t>(q)];
-  // Runs go along the lower of the two axes, which lies closer.
-  const int run = std::min(p, q), other = std::max(p, q);
-  const Extents &runs = run == p ? of_p : of_q, &others = run == p ? of_q : of_p;
-  const Index run_begin = layout.begins[static_cast<size_t>(run)],
-              other_begin = layout.begins[static_cast<size_t>(other)];
-  const Values<Scalar>& values = pairs[static_cast<size_t>(p)];
-  const int width = 1 << layout.halvings;
-#pragma omp parallel for schedule(static) if (cells.count() > kManyEntries)
-  for (int k = 0; k < cells[third]; ++k) {
-    for (int j = 0; j < cells[other]; ++j) {
-      const Index value = k * cells.stride(third) + j * cells.stride(other);
-      const Index in_runs = run_begin + k * runs.stride(third) + j / width * runs.stride(other);
-      const Index in_others = other_begin + k * others.stride(third) + j * others.stride(other);
-      for (int merged = 0; merged < others[run]; ++merged) {
-        const Index single = in_others + merged * others.stride(run);
-        const Scalar at_other = x[single];
-        Scalar sum = 0;
-        for (int i = merged * width; i < std::min((merged + 1) * width, cells[run]); ++i) {
-          const Scalar entry = values[value + i * cells.stride(run)];
-          const Index at = in_runs + i * runs.stride(run);
-          product[at] -= entry * at_other;
-          sum += entry * x[at];
-        }
-        product[single] -= sum;
-      }
-    }
-  }
-}
-
-namespace {
-
-/// Where the rows along an axis begin, after those along the axes before it.
-Index first_row(const ScaleLayout& layout, int axis) {
-  Index rows = 0;
-  for (int u = 0; u < axis; ++u) {
-    const Extents& extents = layout.extents[static_cast<size_t>(u)];
-    rows += extents.count() / extents[u];
-  }
-  return rows;
-}
-
-/// Calls work(begin, count, stride of the next along the row, row) for stretches of rows that lie side by side. Called
-/// by all threads of a parallel region, which share the stretches and do not wait for each other.
-template <typename Work>
-void each_rows(const ScaleLayout& layout, int axis, const Work& work) {
-  const Extents& extents = layout.extents[static_cast<size_t>(axis)];
-  const Index inner = extents.stride(axis), step = inner * extents[axis], outer = extents.count() / step;
-  const Index parts = (inner + kSide - 1) / kSide;
-#pragma omp for schedule(static) nowait
-  for (Index i = 0; i < outer * parts; ++i) {
-    const Index first = i % parts * kSide;
-    work(i / parts * step + first, std::min(kSide, inner - first), inner, i / parts * inner + first);
-  }
-}
-
-}  // namespace
-
-template <typename Scalar>
-void RowSpread<Scalar>::sum() {
-  inverse_sums.resize(first_row(layout, 3));
-#pragma omp parallel if (large(layout))
-  for (int u = 0; u < 3; ++u) {
-    const Extents& extents = layout.extents[static_cast<size_t>(u)];
-    const Scalar* own = weights.data() + layout.begins[static_cast<size_t>(u)];
-    Scalar* sums = inverse_sums.data() + first_row(layout, u);
-    each_rows(layout, u, [&](Index first, Index count, Index stride, Index row) {
-      for (Index r = 0; r < count; ++r) {
-        Scalar total = 0;
-        for (Index i = 0; i < extents[u]; ++i) total += own[first + r + i * stride];
-        sums[row + r] = total > 0 ? 1 / total : 0;
-      }
-    });
+#pragma omp parallel for schedule(static) if (layout.large())
+  for (Index number = 0; number < block_count(); ++number) {
+    const Block block(*this, number);
+    block.each_stretch([&](int u, Index at, Index count) { stencil(u, at, count, x.data(), product.data()); });
+    couple_axes(block, x.data(), product.data());
+    block.each_stretch([&](int, Index at, Index count) { finish(at, count, number); });
   }
 }
 
 template <typename Scalar>
-template <bool kAdd, typename From, typename To>
-void RowSpread<Scalar>::apply(Scalar factor, const Values<From>& from, Values<To>& to) const {
-  using Wide = std::common_type_t<From, To>;
-  using Side = Eigen::Array<Wide, Eigen::Dynamic, 1, 0, kSide, 1>;
-  if (to.size() != layout.size) to.setZero(layout.size);
-#pragma omp parallel if (large(layout))
-  for (int u = 0; u < 3; ++u) {
-    const Extents& extents = layout.extents[static_cast<size_t>(u)];
-    const Index start = layout.begins[static_cast<size_t>(u)], length = extents[u], begin = first_row(layout, u);
-    each_rows(layout, u, [&](Index first, Index count, Index stride, Index row) {
-      const Scalar* own = weights.data() + start + first;
-      const From* source = from.data() + start + first;
-      To* target = to.data() + start + first;
-      if (stride == 1) {  // A row along x lies in one piece.
-        Wide mean = 0;
-        for (Index i = 0; i < length; ++i) mean += static_cast<Wide>(own[i]) * static_cast<Wide>(source[i]);
-        mean *= static_cast<Wide>(inverse_sums[begin + row]);
-        for (Index i = 0; i < length; ++i) {
-          const Wide spread = static_cast<Wide>(factor * own[i]) * (static_cast<Wide>(source[i]) - mean);
-          target[i] = static_cast<To>((kAdd ? static_cast<Wide>(target[i]) : 0) + spread);
-        }
-        return;
-      }
-      Side mean = Side::Zero(count);
-      for (Index i = 0; i < length; ++i) {
-        mean += part(own + i * stride, count).template cast<Wide>() *
-                part(source + i * stride, count).template cast<Wide>();
-      }
-      mean *= part(inverse_sums.data() + begin + row, count).template cast<Wide>();
-      for (Index i = 0; i < length; ++i) {
-        Eigen::Map<Eigen::Array<To, Eigen::Dynamic, 1>> put(target + i * stride, count);
-        const auto spread = (factor * part(own + i * stride, count)).template cast<Wide>() *
-                            (part(source + i * stride, count).template cast<Wide>() - mean);
-        if constexpr (kAdd) {
-          put += spread.template cast<To>();
-        } else {
-          put = spread.template cast<To>();
-        }
-      }
-    });
-  }
+double ScaleMatrix<Scalar>::multiply(const Values<Scalar>& x, Values<Scalar>& product) const {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(block_count());
+  each_block(x, product, [&](Index at, Index count, Index block) {
+    sums[block] += static_cast<double>(x.segment(at, count).dot(product.segment(at, count)));
+  });
+  return sums.sum();
+}
+
+template <typename Scalar>
+void ScaleMatrix<Scalar>::subtract(const Values<Scalar>& side, const Values<Scalar>& x, Values<Scalar>& rest) const {
+  each_block(x, rest, [&](Index at, Index count, Index) {
+    rest.segment(at, count) = side.segment(at, count) - rest.segment(at, count);
+  });
 }
 
 template struct ScaleMatrix<float>;
 template struct ScaleMatrix<double>;
-template struct RowSpread<float>;
-template struct RowSpread<double>;
-template void RowSpread<float>::apply<false>(float, const Values<float>&, Values<float>&) const;
-template void RowSpread<float>::apply<true>(float, const Values<float>&, Values<float>&) const;
-template void RowSpread<double>::apply<false>(double, const Values<double>&, Values<float>&) const;
-template void RowSpread<double>::apply<false>(double, const Values<float>&, Values<double>&) const;
 
 }  // namespace swage

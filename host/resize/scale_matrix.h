@@ -22,6 +22,8 @@ struct ScaleLayout {
   std::array<Eigen::Index, 3> begins;  // Where they begin.
   Eigen::Index size;
   int halvings;
+
+  bool large() const { return size > 3 * kManyEntries; }
 };
 
 /// The axes along which scales along u are merged: all but u.
@@ -32,31 +34,27 @@ struct ScaleMatrix {
   explicit ScaleMatrix(const ScaleLayout& of) : layout(of) {}
 
   ScaleLayout layout;
-  Values<Scalar> neighbours;              // Sum of the weights below of a cell and those that end in it.
   std::array<Values<Scalar>, 2> weights;  // Between a cell and the one after it along next(u), next(next(u)).
-  // What depends on the factors: the diagonal, and minus the entries of pairs of axes u, next(u). Those lie on the
-  // cells, merged only along the third axis.
-  Values<Scalar> diagonal;
+  Values<Scalar> neighbours;              // Of a cell, the sum of those and of the weights that end in it.
+  // What depends on the factors: the diagonal beyond those sums, and minus the entries of pairs of axes u, next(u).
+  // Those lie on the cells, merged only along the third axis.
+  Values<Scalar> own;
   std::array<Values<Scalar>, 3> pairs;
 
   Extents pair_extents(int p) const;
-  void multiply(const Values<Scalar>& x, Values<Scalar>& product) const;
+  /// x · product.
+  double multiply(const Values<Scalar>& x, Values<Scalar>& product) const;
+  /// What x leaves of the side.
+  void subtract(const Values<Scalar>& side, const Values<Scalar>& x, Values<Scalar>& rest) const;
 
  private:
-  void multiply_pairs(int p, const Values<Scalar>& x, Values<Scalar>& product) const;
-};
+  struct Block;
 
-/// Takes the weighted mean out of rows, and adds or puts what is left, times weights and factor, to another vector or
-/// the same. In double precision where either is.
-template <typename Scalar>
-struct RowSpread {
-  const ScaleLayout& layout;
-  const Values<Scalar>& weights;
-  Values<Scalar> inverse_sums = {};  // Of each row's weights, or 0.
-
-  void sum();
-  template <bool kAdd, typename From, typename To>
-  void apply(Scalar factor, const Values<From>& from, Values<To>& to) const;
+  Eigen::Index block_count() const { return Eigen::Index{layout.extents[0][1]} * layout.extents[0][2]; }
+  template <typename Finish>
+  void each_block(const Values<Scalar>& x, Values<Scalar>& product, const Finish& finish) const;
+  void stencil(int u, Eigen::Index at, Eigen::Index count, const Scalar* x, Scalar* product) const;
+  void couple_axes(const Block& block, const Scalar* x, Scalar* product) const;
 };
 
 }  // namespace swage

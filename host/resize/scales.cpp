@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bounded.h"
-#include "conjugate_gradients.h"
+#include "correction.h"
 #include "pool.h"
 #include "scale_levels.h"
 #include "swage/error.h"
@@ -14,11 +14,11 @@ namespace {
 
 using Eigen::Index;
 using Vector = Values<double>;
+using Side = Eigen::Array<double, Eigen::Dynamic, 1, 0, kSide, 1>;
 
-constexpr int kIterationLimit = 500;  // Of a round.
+constexpr int kIterationLimit = 50;  // Of a round.
 constexpr int kRoundLimit = 200;
 constexpr double kRounding = 1e-14;
-constexpr double kLoose = 1e-3;  // The tolerance while cells still come to the bound and leave it.
 
 constexpr const char* kCaller = "ScaleSolve";
 
@@ -29,7 +29,7 @@ ScaleMatrix<double> with_weights(const GridShape& shape, const Eigen::VectorXd& 
   ScaleMatrix<double> matrix{ScaleLayout(shape.cells)};
   const ScaleLayout& layout = matrix.layout;
   matrix.neighbours.setZero(layout.size);
-  matrix.diagonal.setZero(layout.size);
+  matrix.own.setZero(layout.size);
   for (Vector& weights : matrix.weights) weights.setZero(layout.size);
   for (Vector& pair : matrix.pairs) pair.setZero(shape.cells.count());
   for (int u = 0; u < 3; ++u) {
@@ -52,12 +52,20 @@ ScaleMatrix<double> with_weights(const GridShape& shape, const Eigen::VectorXd& 
 
 /// What one thread at a time works with.
 struct ScaleWork {
-  explicit ScaleWork(const ScaleMatrix<double>& of) : matrix(of), levels(of) {}
+  explicit ScaleWork(const ScaleMatrix<double>& of)
+      : matrix(of),
+        levels(of),
+        side(Vector::Zero(of.layout.size)),
+        measure(Eigen::ArrayXd::Zero(of.layout.size)),
+        free(Values<float>::Zero(of.layout.size)) {}
 
   ScaleMatrix<double> matrix;
   ScaleLevels levels;
-  GradientsWork<Vector> gradients;
-  Vector side, change, image, free;
+  CorrectionWork correction;
+  Vector side, change, rest;  // Rest: what the change leaves of the side.
+  Eigen::ArrayXd measure;
+  Values<float> free;
+  AtBound at_bound;  // As long as the vectors are.
 };
 
 }  // namespace
@@ -79,30 +87,28 @@ struct ScaleSolve::Plan {
   Pool<ScaleWork> works = {};
 
   void fill(ScaleWork& work, const Eigen::RowVector3d& factors, double unit, double size_weight) const;
-  Gradients improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
-                    const Poll& poll) const;
-  Eigen::ArrayXd measure(ScaleWork& work, const AtBound& at_bound, const Eigen::RowVector3d& factors) const;
-  void hold(ScaleWork& work, const AtBound& at_bound, const Eigen::RowVector3d& factors) const;
+  void hold(ScaleWork& work, const Eigen::RowVector3d& factors) const;
+  Correction improve(ScaleWork& work, Approach& approach, const Poll& poll) const;
+  void measure(ScaleWork& work, const Eigen::RowVector3d& factors, const Approach& approach) const;
   void pull_in(ScaleWork& work, const Eigen::RowVector3d& factors) const;
   template <typename Work>
-  void each_row(const Work& work) const;
+  void each_axis(const Work& work) const;
 };
 
-/// Calls work(axis, first cell of a row, stride along it).
+/// Calls work(axis, length, begin, count, stride): that many rows along the axis side by side.
 template <typename Work>
-void ScaleSolve::Plan::each_row(const Work& work) const {
+void ScaleSolve::Plan::each_axis(const Work& work) const {
+#pragma omp parallel if (matrix.layout.large())
   for (int u = 0; u < 3; ++u) {
-    const Index stride = shape.cells.stride(u), rows = shape.cells.count() / shape.cells[u];
-#pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
-    for (Index row = 0; row < rows; ++row) work(u, row / stride * stride * shape.cells[u] + row % stride, stride);
+    each_rows(matrix.layout, u,
+              [&](Index begin, Index count, Index stride, Index) { work(u, shape.cells[u], begin, count, stride); });
   }
 }
 
 void ScaleSolve::Plan::fill(ScaleWork& work, const Eigen::RowVector3d& factors, double unit, double size_weight) const {
   const ScaleLayout& layout = matrix.layout;
-  ScaleMatrix<double>& own = work.matrix;
-  work.side.setZero(layout.size);
   work.change.setZero(layout.size);
+  work.at_bound.assign(static_cast<size_t>(layout.size), 0);
 #pragma omp parallel for schedule(static) if (shape.cells.count() > kManyEntries)
   for (Index c = 0; c < shape.cells.count(); ++c) {
     Eigen::RowVector3d inverse = Eigen::RowVector3d::Zero(), diagonal = Eigen::RowVector3d::Zero();
@@ -115,7 +121,7 @@ void ScaleSolve::Plan::fill(ScaleWork& work, const Eigen::RowVector3d& factors, 
     for (int u = 0; u < 3; ++u) {
       const int v = next(u);
       const double weight = std::max(std::min(map.theta(c, u), map.theta(c, v)), kLeastModulation);
-      own.pairs[static_cast<size_t>(u)][c] = weight * inverse[u] * inverse[v];
+      work.matrix.pairs[static_cast<size_t>(u)][c] = weight * inverse[u] * inverse[v];
       if (inverse[u] == 0 || inverse[v] == 0) continue;
       diagonal[u] += weight * inverse[u] * inverse[u];
       diagonal[v] += weight * inverse[v] * inverse[v];
@@ -126,95 +132,100 @@ void ScaleSolve::Plan::fill(ScaleWork& work, const Eigen::RowVector3d& factors, 
     for (int u = 0; u < 3; ++u) {
       const Index at = layout.begins[static_cast<size_t>(u)] + c;
       const double size = shape.extends(u) ? size_weight * map.theta(c, u) : 0;
-      own.diagonal[at] = own.neighbours[at] + diagonal[u] + size;
+      work.matrix.own[at] = diagonal[u] + size;
       work.side[at] = pull[u] + size * (1 - factors[u]);
     }
   }
-  work.levels.fill(own);
-}
-
-/// Conjugate gradients to a part of the error that was there at first, at the first call.
-Gradients ScaleSolve::Plan::improve(ScaleWork& work, const Eigen::RowVector3d& factors, double tolerance, double& first,
-                                    const Poll& poll) const {
-  const auto times_matrix = [&](const Vector& x, Vector& product) {
-    ask(poll);
-    work.matrix.multiply(x, product);
-  };
-  const auto precondition = [&](const Vector& residual, Vector& error) { work.levels.cycle(residual, error); };
-  times_matrix(work.change, work.image);
-  work.image = work.side - work.image;
-  precondition(work.image, work.gradients.error);
-  const double square = product(work.image, work.gradients.error);
-  // What it would be if all scales were off by rounding: nothing is to be gained below.
-  const double rounding = kRounding * kRounding * factors.squaredNorm() * work.matrix.diagonal.sum();
-  if (first < 0) first = square;
-  if (square <= std::max(tolerance * tolerance * first, rounding)) return {0, true};
-  return conjugate_gradients(times_matrix, precondition, work.side, tolerance * std::sqrt(first / square),
-                             kIterationLimit, work.change, work.gradients);
-}
-
-/// Of each entry at the bound its multiplier, of others how far they are from it.
-Eigen::ArrayXd ScaleSolve::Plan::measure(ScaleWork& work, const AtBound& at_bound,
-                                         const Eigen::RowVector3d& factors) const {
-  const ScaleLayout& layout = matrix.layout;
-  const Index count = shape.cells.count();
-  Eigen::ArrayXd result(3 * count);
-  work.matrix.multiply(work.change, work.image);
-  work.image -= work.side;
-  each_row([&](int u, Index cell, Index stride) {
-    const Index at = layout.begins[static_cast<size_t>(u)] + cell, entry = u * count + cell;
-    const double bound = least_change(factors[u]);
-    double sum = 0, free = 0;
-    for (Index i = 0; i < shape.cells[u]; ++i) {
-      if (at_bound[static_cast<size_t>(entry + i * stride)] != 0) continue;
-      sum += work.image[at + i * stride];
-      free += 1;
-    }
-    for (Index i = 0; i < shape.cells[u]; ++i) {
-      result[entry + i * stride] = at_bound[static_cast<size_t>(entry + i * stride)] != 0
-                                       ? work.image[at + i * stride] - sum / free
-                                       : work.change[at + i * stride] - bound;
-    }
-  });
-  return result;
+  work.levels.fill(work.matrix);
 }
 
 /// Puts scales to the bound, and what their rows lack onto those that are free.
-void ScaleSolve::Plan::hold(ScaleWork& work, const AtBound& at_bound, const Eigen::RowVector3d& factors) const {
-  const ScaleLayout& layout = matrix.layout;
-  work.free.setZero(layout.size);
-  each_row([&](int u, Index cell, Index stride) {
-    const Index at = layout.begins[static_cast<size_t>(u)] + cell, entry = u * shape.cells.count() + cell;
+void ScaleSolve::Plan::hold(ScaleWork& work, const Eigen::RowVector3d& factors) const {
+  each_axis([&](int u, int length, Index begin, Index count, Index stride) {
     const double bound = least_change(factors[u]);
-    double lack = 0, free = 0;
-    for (Index i = 0; i < shape.cells[u]; ++i) {
-      const bool held = at_bound[static_cast<size_t>(entry + i * stride)] != 0;
-      if (held) work.change[at + i * stride] = bound;
-      lack -= work.change[at + i * stride];
-      work.free[at + i * stride] = held || !shape.extends(u) ? 0 : 1;
-      free += held ? 0 : 1;
+    Side lack = Side::Zero(count), free = Side::Zero(count);
+    for (Index i = 0; i < length; ++i) {
+      for (Index r = 0; r < count; ++r) {
+        const Index at = begin + i * stride + r;
+        const bool held = work.at_bound[static_cast<size_t>(at)] != 0;
+        if (held) work.change[at] = bound;
+        lack[r] -= work.change[at];
+        free[r] += held ? 0 : 1;
+        work.free[at] = held || !shape.extends(u) ? 0 : 1;
+      }
     }
-    if (free == shape.cells[u] && std::abs(lack) <= 1e-12 * factors[u] * free) return;
-    for (Index i = 0; i < shape.cells[u]; ++i) {
-      if (at_bound[static_cast<size_t>(entry + i * stride)] == 0) work.change[at + i * stride] += lack / free;
+    lack /= free;
+    for (Index i = 0; i < length; ++i) {
+      work.change.segment(begin + i * stride, count).array() +=
+          lack * work.free.segment(begin + i * stride, count).array().cast<double>();
     }
   });
-  work.levels.hold(work.free, std::count(at_bound.begin(), at_bound.end(), 1) == 0);
+  work.matrix.subtract(work.side, work.change, work.rest);
+  work.levels.hold(work.free, std::count(work.at_bound.begin(), work.at_bound.end(), 1) == 0);
 }
 
-/// Draws rows that pass the bound towards the uniform scale until they do not: what tolerances left.
-void ScaleSolve::Plan::pull_in(ScaleWork& work, const Eigen::RowVector3d& factors) const {
-  const ScaleLayout& layout = matrix.layout;
-  each_row([&](int u, Index cell, Index stride) {
+Correction ScaleSolve::Plan::improve(ScaleWork& work, Approach& approach, const Poll& poll) const {
+  const auto times_matrix = [&](const Values<float>& x, Values<float>& product) {
+    ask(poll);
+    const double bend = work.levels.finest().multiply(x, product);
+    work.levels.rows().center(product, product);
+    return bend;
+  };
+  const auto precondition = [&](const Values<float>& residual, Values<float>& error) {
+    work.levels.cycle(residual, error);
+  };
+  const Rows rows = work.levels.rows();
+  rows.center(work.rest, work.correction.residual);
+  const Correction correction = correct(
+      times_matrix, precondition, [&](double square) { return approach.enough(square); }, kIterationLimit,
+      work.correction);
+  rows.add(work.correction.change, work.change);
+  work.matrix.subtract(work.side, work.change, work.rest);
+  return correction;
+}
+
+/// Of each entry at the bound its multiplier, of others how far they are from it; as parts of what may be off.
+void ScaleSolve::Plan::measure(ScaleWork& work, const Eigen::RowVector3d& factors, const Approach& approach) const {
+  Eigen::RowVector3d off;
+  for (int u = 0; u < 3; ++u) {
+    const auto error = work.correction.error.segment(matrix.layout.begins[static_cast<size_t>(u)], map.phi.size());
+    off[u] = error.cwiseAbs().maxCoeff();
+  }
+  each_axis([&](int u, int length, Index begin, Index count, Index stride) {
     const double bound = least_change(factors[u]);
-    double* row = work.change.data() + layout.begins[static_cast<size_t>(u)] + cell;
-    double part = 1;
-    for (Index i = 0; i < shape.cells[u]; ++i) {
-      if (row[i * stride] < bound) part = std::min(part, bound / row[i * stride]);
+    Side mean = Side::Zero(count), free = Side::Zero(count);
+    for (Index i = 0; i < length; ++i) {
+      const auto own = work.free.segment(begin + i * stride, count).array().cast<double>();
+      mean += own * work.rest.segment(begin + i * stride, count).array();
+      free += own;
     }
-    if (part == 1) return;
-    for (Index i = 0; i < shape.cells[u]; ++i) {
-      row[i * stride] = std::max(bound, part * row[i * stride]);
+    mean /= free.max(1);
+    for (Index i = 0; i < length; ++i) {
+      for (Index r = 0; r < count; ++r) {
+        const Index at = begin + i * stride + r;
+        const double diagonal = work.matrix.own[at] + work.matrix.neighbours[at];
+        const double way = work.at_bound[static_cast<size_t>(at)] != 0 ? (mean[r] - work.rest[at]) / diagonal
+                                                                       : work.change[at] - bound;
+        work.measure[at] = way / std::max(off[u], approach.negligible(diagonal));
+      }
+    }
+  });
+}
+
+/// Brings scales that tolerances left below the bound to it, at the cost of those above it.
+void ScaleSolve::Plan::pull_in(ScaleWork& work, const Eigen::RowVector3d& factors) const {
+  each_axis([&](int u, int length, Index begin, Index count, Index stride) {
+    const double bound = least_change(factors[u]);
+    Side below = Side::Zero(count), above = Side::Zero(count);
+    for (Index i = 0; i < length; ++i) {
+      const auto way = work.change.segment(begin + i * stride, count).array() - bound;
+      below -= way.min(0);
+      above += way.max(0);
+    }
+    if ((below == 0).all()) return;
+    for (Index i = 0; i < length; ++i) {
+      auto change = work.change.segment(begin + i * stride, count).array();
+      change = (below > 0).select(bound + (change - bound).max(0) * (1 - below / above), change);
     }
   });
 }
@@ -242,25 +253,25 @@ Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& op
 
   // Vulnerable cells that are to keep their size are to have the scale 1, whatever the factors.
   plan_->fill(*work, factors, options.size_weight > 0 ? 1 : unit_scale(plan_->shape, factors), options.size_weight);
-  AtBound at_bound(static_cast<size_t>(3 * count), 0);
+  const double rounding =
+      kRounding * kRounding * factors.squaredNorm() * (work->matrix.own + work->matrix.neighbours).sum();
+  Approach approach(options.tolerance, rounding);
   BlockPivoting pivoting;
   Scales result;
-  double first = -1, tolerance = std::max(kLoose, options.tolerance);
-  while (true) {
-    plan_->hold(*work, at_bound, factors);
-    const Gradients gradients = plan_->improve(*work, factors, tolerance, first, poll);
-    result.iterations += gradients.iterations;
-    result.converged = gradients.converged && result.rounds < kRoundLimit;
-    const double negligible = 10 * tolerance * std::min(1.0, factors.minCoeff()) * kLeastScale;
-    if (!pivoting.exchange(plan_->measure(*work, at_bound, factors), negligible, at_bound)) {
-      if (tolerance <= options.tolerance) break;
-      tolerance = options.tolerance;
-      continue;
-    }
-    if (result.rounds++ == kRoundLimit) break;
+  for (bool changed = true; true;) {
+    if (changed) plan_->hold(*work, factors);
+    const Correction correction = plan_->improve(*work, approach, poll);
+    result.iterations += correction.iterations;
+    result.converged = approach.there(correction);
+    plan_->measure(*work, factors, approach);
+    changed = pivoting.exchange(work->measure, 1, work->at_bound);
+    if (!changed && (result.converged || !correction.gained())) break;
+    result.converged = false;
+    if (changed && result.rounds++ == kRoundLimit) break;
+    if (pivoting.stalled() && approach.tighten()) pivoting = {};  // It may be what solves leave that goes round.
   }
   plan_->pull_in(*work, factors);
-  result.at_bound = std::count(at_bound.begin(), at_bound.end(), 1);
+  result.at_bound = std::count(work->at_bound.begin(), work->at_bound.end(), 1);
   result.values.resize(count, 3);
   for (int u = 0; u < 3; ++u) {
     result.values.col(u) =
