@@ -9,6 +9,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr size_t kTwice = 1;  // So many levels below the finest are gone through twice on each way down.
 constexpr float kDamping = 0.9F;
 constexpr float kTie = 1000;  // How much stronger than all else vertices are tied, in the lines that smooth.
 // Tied vertices hold those that they are merged with, by a spring so many times as strong as their neighbours.

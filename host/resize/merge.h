@@ -19,10 +19,6 @@ constexpr Eigen::Index kManyEntries = 30'000;
 /// Of weights between pairs of neighbours, each a way of 1 long, this part stands for the way of 2 between merged ones.
 constexpr float kLongerWay = 0.8F;
 
-/// So many levels below the finest are gone through twice on each way down: merged values alone are too coarse a
-/// correction to go down through many levels once.
-constexpr size_t kTwice = 2;
-
 /// The axes along which neighbours are merged.
 using Merged = std::array<bool, 3>;
 

@@ -9,6 +9,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr size_t kTwice = 2;  // So many levels below the finest are gone through twice on each way down.
 constexpr float kDamping = 0.85F;
 // Scales that are held hold those that they are merged with, by a spring so many times as strong as their neighbours.
 constexpr float kHeld = 4;
