@@ -38,6 +38,7 @@ class OpenClBackend final : public Backend {
   std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const override {
     return opencl_closest_normal(context_, normals);
   }
+  std::unique_ptr<FieldStep> field(const Tape& tape) const override { return opencl_field(context_, tape); }
 
  private:
   Device facts_;

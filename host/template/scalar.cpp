@@ -14,42 +14,6 @@ bool commutes(TapeOp op) {
 
 }  // namespace
 
-double value_of(TapeOp op, double a, double b) {
-  switch (op) {
-    case TapeOp::add:
-      return a + b;
-    case TapeOp::subtract:
-      return a - b;
-    case TapeOp::multiply:
-      return a * b;
-    case TapeOp::divide:
-      return a / b;
-    case TapeOp::minimum:
-      return std::min(a, b);
-    case TapeOp::maximum:
-      return std::max(a, b);
-    case TapeOp::arctangent:
-      return std::atan2(a, b);
-    case TapeOp::less:
-      return a < b ? 1 : 0;
-    case TapeOp::negate:
-      return -a;
-    case TapeOp::absolute:
-      return std::abs(a);
-    case TapeOp::root:
-      return std::sqrt(std::max(a, 0.0));
-    case TapeOp::sine:
-      return std::sin(a);
-    case TapeOp::cosine:
-      return std::cos(a);
-    case TapeOp::exponential:
-      return std::exp(a);
-    case TapeOp::floor:
-      return std::floor(a);
-  }
-  return 0;
-}
-
 TapeBuilder::TapeBuilder(int parameter_count) : parameter_count_(parameter_count) {
   for (int i = 0; i < parameter_count; ++i) add({Node::Kind::parameter, 0, {}, false});
   for (int axis = 0; axis < 3; ++axis) add({Node::Kind::coordinate, 0, {}, true});

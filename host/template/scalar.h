@@ -60,9 +60,6 @@ class TapeBuilder {
   std::map<std::tuple<TapeOp, int, int>, int> made_;
 };
 
-/// What an instruction makes of its arguments.
-double value_of(TapeOp op, double a, double b);
-
 Scalar operator+(Scalar a, Scalar b);
 Scalar operator-(Scalar a, Scalar b);
 Scalar operator*(Scalar a, Scalar b);

@@ -8,6 +8,7 @@
 
 #include "swage/error.h"
 #include "swage/mesh.h"
+#include "swage/tape.h"
 
 namespace swage {
 
@@ -170,6 +171,25 @@ class ClosestNormalStep {
   /// `units`: #N × 3, of length 1. Gives #N numbers: whose of the style's normals is at the least angle, of several
   /// equally near the first; 0 for a row of zeros.
   virtual void find(const Positions& units, Eigen::VectorXi& closest) = 0;
+};
+
+/// What is known of a template's field at points.
+struct FieldValues {
+  Eigen::VectorXd values;                                                                ///< #P: negative inside.
+  Positions gradients;                                                                   ///< #P × 3, in space.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_parameters;  ///< #P × #parameters.
+};
+
+/// How much of it is asked for.
+enum class FieldDerivatives { none, in_space, all };
+
+/// A template's field (template.h): its tape run at points, with the derivatives of every instruction.
+class FieldStep {
+ public:
+  virtual ~FieldStep() = default;
+  /// `parameters`: as many as the tape has. What is not asked for is left as it is.
+  virtual void evaluate(const Positions& points, const Eigen::VectorXd& parameters, FieldDerivatives derivatives,
+                        FieldValues& field) = 0;
 };
 
 }  // namespace swage

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "swage/backend.h"
+#include "swage/mesh.h"
+#include "swage/report.h"
 #include "swage/tape.h"
 
 namespace swage {
@@ -61,5 +64,21 @@ Template parse_template(std::string_view text, const std::string& name);
 std::vector<std::string> shipped_templates();
 /// Throws InvalidInput, naming those that there are.
 Template shipped_template(std::string_view name);
+
+/// Of the zero set of a template.
+struct TemplateMeshOptions {
+  int resolution = 128;              ///< Cells along the longest side of its box, [8, 1024].
+  std::shared_ptr<Backend> backend;  ///< Evaluates the field; cpu_backend() where none is given.
+};
+
+/// The surface where the field vanishes, by dual contouring: a vertex in each cell that it passes, where the planes
+/// tangent to it there meet, so that edges stay sharp; wound so that normals point to where the field grows. Parts
+/// thinner than a cell may be lost.
+///
+/// Throws InvalidInput where the parameters are not as many as the template's or not finite, or the resolution is out
+/// of its range, and Unsolvable where there is no surface within 64 units of the origin, or it does not end there.
+/// Empty where `progress` cancelled.
+Mesh template_mesh(const Template& of, const Eigen::VectorXd& parameters, const TemplateMeshOptions& options = {},
+                   const ProgressFn& progress = {});
 
 }  // namespace swage
