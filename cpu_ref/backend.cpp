@@ -26,6 +26,7 @@ class CpuBackend final : public Backend {
     return cpu_closest_normal(normals);
   }
   std::unique_ptr<FieldStep> field(const Tape& tape) const override { return cpu_field(tape); }
+  std::unique_ptr<LocalMapStep> local_map(const LocalMapStep::Rest& rest) const override { return cpu_local_map(rest); }
 };
 
 }  // namespace

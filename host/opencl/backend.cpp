@@ -39,6 +39,9 @@ class OpenClBackend final : public Backend {
     return opencl_closest_normal(context_, normals);
   }
   std::unique_ptr<FieldStep> field(const Tape& tape) const override { return opencl_field(context_, tape); }
+  std::unique_ptr<LocalMapStep> local_map(const LocalMapStep::Rest& rest) const override {
+    return opencl_local_map(context_, rest);
+  }
 
  private:
   Device facts_;

@@ -173,6 +173,25 @@ class ClosestNormalStep {
   virtual void find(const Positions& units, Eigen::VectorXi& closest) = 0;
 };
 
+/// Maps of a surface's neighbourhoods (template_edit.h; paper eq. 13, 17): of each element the linear map that takes
+/// its rest normal n to its normal now n', and the plane across n to that across n', where it fits the pairs' edges
+/// best: n' nᵀ + P' (sum_p w_p b_p a_pᵀ + sum_j w_j T_j) (P (sum_p w_p a_p a_pᵀ + sum_j w_j I) P)⁺, with P = I - n nᵀ,
+/// a the rest edges, b the edges now, and T_j a neighbour's last map, turned by the shortest rotations from n to its
+/// rest normal and from its normal now to n'.
+class LocalMapStep {
+ public:
+  struct Rest {
+    PairsRest pairs;              ///< With normals, whose weights do not matter; no weight below 0.
+    std::vector<int> offsets;     ///< #N + 1: neighbours of element n stand at offsets[n] .. offsets[n + 1]. Or none.
+    std::vector<int> neighbours;  ///< Elements.
+    Eigen::VectorXd smoothing;    ///< Their weights, at least 0, of the unit of w |a|².
+  };
+
+  virtual ~LocalMapStep() = default;
+  /// `normals`: #N × 3 unit, now. `maps`: #N × 9, the last ones where there are neighbours; becomes the new ones.
+  virtual void fit(const Positions& positions, const Positions& normals, Transforms& maps) = 0;
+};
+
 /// What is known of a template's field at points.
 struct FieldValues {
   Eigen::VectorXd values;                                                                ///< #P: negative inside.
