@@ -21,6 +21,10 @@ constexpr Index kVertices = 1 << 17;                   // Fitted at once.
 // on. Grids do not see what is lost.
 constexpr double kFine = 0.005;
 constexpr int kMostPasses = 4;
+// Sides of the diagonal from which triangles are large: all corners of one may lie on roundings beside it, so that it
+// is asked how far normals turn over the triangle itself. From the second on alone. Smaller ones may be parts of a
+// facet, of what is round as a whole.
+constexpr double kLarge = 0.05, kLargest = 0.1;
 
 CurvatureTensor tensor_of(const RowVector3d& a, const RowVector3d& b, double scale) {
   CurvatureTensor tensor;
@@ -58,9 +62,12 @@ Eigen::RowVector3d curvatures_along(const CurvatureTensor& tensor, const RowVect
 }
 
 FaceCurvatures::FaceCurvatures(Pieces pieces, double diagonal, const Backend& backend, const Poll& poll)
-    : pieces_(std::move(pieces)), near_(pieces_.mesh, kRings), tensors_(pieces_.mesh.positions.rows(), 6) {
+    : pieces_(std::move(pieces)),
+      diagonal_(diagonal),
+      near_(pieces_.mesh, kRings),
+      tensors_(pieces_.mesh.positions.rows(), 6) {
   fit(backend, poll);
-  smooth(diagonal, poll);
+  smooth(poll);
 }
 
 void FaceCurvatures::fit(const Backend& backend, const Poll& poll) {
@@ -81,7 +88,7 @@ void FaceCurvatures::fit(const Backend& backend, const Poll& poll) {
   }
 }
 
-void FaceCurvatures::smooth(double diagonal, const Poll& poll) {
+void FaceCurvatures::smooth(const Poll& poll) {
   const Lists& near = near_.one_rings();
   const Positions& positions = pieces_.mesh.positions;
   std::vector<char> passes(static_cast<size_t>(near.size()));  // Of each vertex.
@@ -90,13 +97,13 @@ void FaceCurvatures::smooth(double diagonal, const Poll& poll) {
     double sum = 0;
     for (const int other : near[v]) sum += (positions.row(other) - positions.row(v)).norm();
     const double length = sum / std::max(1, near[v].size());
-    const double halvings = length > 0 ? std::ceil(std::log2(kFine * diagonal / length)) : 0;
+    const double halvings = length > 0 ? std::ceil(std::log2(kFine * diagonal_ / length)) : 0;
     passes[static_cast<size_t>(v)] = static_cast<char>(std::clamp(halvings, 0.0, double{kMostPasses}));
   }
   const char most = passes.empty() ? char{0} : *std::max_element(passes.begin(), passes.end());
+  CurvatureTensors means(most > 0 ? tensors_.rows() : 0, 6);
   for (char pass = 0; pass < most; ++pass) {
     ask(poll);
-    CurvatureTensors means(tensors_.rows(), 6);
 #pragma omp parallel for schedule(static)
     for (int v = 0; v < near.size(); ++v) {
       CurvatureTensor sum = tensors_.row(v);
@@ -130,11 +137,14 @@ Eigen::RowVector3d FaceCurvatures::along_axes(Index triangle) const {
   const RowVector3d ab = positions.row(corners[1]) - positions.row(corners[0]);
   const RowVector3d ac = positions.row(corners[2]) - positions.row(corners[0]);
   const RowVector3d area = ab.cross(ac);
-  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-  if (!(area.norm() > CarryStep::kLeastHeight * longest)) return RowVector3d::Zero();
-  RowVector3d sum = RowVector3d::Zero();
-  for (const int v : corners) sum += curvatures_along(tensors_.row(v), near_.normals().row(v));
-  return (sum / 3).cwiseMin(curvatures_along(by_normals(triangle, area), area.normalized()));
+  const double longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
+  if (!(area.norm() > CarryStep::kLeastHeight * longest * longest)) return RowVector3d::Zero();
+  RowVector3d mean = RowVector3d::Zero();
+  for (const int v : corners) mean += curvatures_along(tensors_.row(v), near_.normals().row(v)) / 3;
+  const double part = std::clamp((longest / diagonal_ - kLarge) / (kLargest - kLarge), 0.0, 1.0);
+  if (part == 0) return mean;
+  const RowVector3d least = mean.cwiseMin(curvatures_along(by_normals(triangle, area), area.normalized()));
+  return (1 - part) * mean + part * least;
 }
 
 }  // namespace swage

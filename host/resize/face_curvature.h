@@ -26,16 +26,17 @@ class FaceCurvatures {
   FaceCurvatures(const FaceCurvatures&) = delete;
   FaceCurvatures& operator=(const FaceCurvatures&) = delete;
 
-  /// Along each axis: the mean over the triangle's corners, as far as normals turn over it at all; 0 where it has no
-  /// area.
+  /// Along each axis: the mean over the triangle's corners, of a large one as far as normals turn over it at all; 0
+  /// where it has no area.
   Eigen::RowVector3d along_axes(Eigen::Index triangle) const;
 
  private:
   void fit(const Backend& backend, const Poll& poll);
-  void smooth(double diagonal, const Poll& poll);
+  void smooth(const Poll& poll);
   CurvatureTensor by_normals(Eigen::Index triangle, const Eigen::RowVector3d& normal) const;
 
   Pieces pieces_;
+  double diagonal_;
   Neighbourhoods near_;
   CurvatureTensors tensors_;  ///< Of the vertices of the pieces.
 };
