@@ -15,6 +15,9 @@
 
 namespace swage {
 
+/// Vulnerability from which a cell counts as protected where the user is told.
+constexpr double kProtected = 0.5;
+
 /// What depends on the map.
 struct GridSolves {
   ScaleSolve scales;
@@ -30,6 +33,7 @@ struct ResizePlan {
   Vulnerability vulnerability = {};
   Coverage coverage = {};
   CellMap found = {}, map = {};                ///< As found, and as it counts.
+  AxisValues asked = {};                       ///< #C × 3: 1 where the user protects, else 0.
   std::map<std::string, double> seconds = {};  ///< Of the preparation, by stage.
   bool prepared = false;
 
@@ -46,6 +50,8 @@ void check_target(const GridShape& shape, const ResizeTarget& target);
 GridShape shape_of(const PositionsRef& positions, const ResizeOptions& options);
 /// Once. False where `progress` cancelled: another call begins anew.
 bool prepare(ResizePlan& plan, const ProgressFn& progress);
+/// As found.
+void reset_map(ResizePlan& plan);
 /// Those of the map as it counts.
 const GridSolves& solves_of(ResizePlan& plan);
 

@@ -61,8 +61,14 @@ bool prepare(ResizePlan& plan, const ProgressFn& progress) {
     const Stopwatch watch(made.seconds["coverage"] = 0);
     made.coverage = coverage(made.shape, made.mesh.positions, made.mesh.triangles, backend, stages.poll());
     made.found = map_of(made.shape, made.coverage, made.vulnerability.theta);
-    made.map = made.found;
+    reset_map(made);
   });
+}
+
+void reset_map(ResizePlan& plan) {
+  plan.map = plan.found;
+  plan.asked.setZero(plan.shape.cells.count(), 3);
+  plan.solves.reset();
 }
 
 const GridSolves& solves_of(ResizePlan& plan) {

@@ -130,14 +130,13 @@ void Resize::protect(const Protection& protection) {
 void Resize::set_map(const CellMap& map) {
   check("Resize", plan_->shape, map);
   prepare();
+  swage::reset_map(*plan_);
   plan_->map = map;
-  plan_->solves.reset();
 }
 
 void Resize::reset_map() {
   prepare();
-  plan_->map = plan_->found;
-  plan_->solves.reset();
+  swage::reset_map(*plan_);
 }
 
 ResizeResult Resize::solve(const ResizeTarget& given, const ProgressFn& progress) {
