@@ -105,17 +105,17 @@ Image picture_of_grid(const ResizeJob& job, Resized& run, const CommonOptions& c
   const CellMap& map = run.plan.map();
   const AxisValues grid = rest_vertices(shape);
   const Triangles& triangles = run.file.mesh.triangles;
-  const Eigen::VectorXd theta = run.plan.vulnerability().theta.rowwise().maxCoeff();
-  const Panel before{{centred(run.file.mesh.positions), triangles}, "", {}, theta, ""};
+  const Eigen::VectorXd pale = Eigen::VectorXd::Zero(triangles.rows());  // Lines are seen on it whatever their colour.
+  const Panel before{{centred(run.file.mesh.positions), triangles}, "", {}, pale, ""};
   std::vector<Pair> pairs;
   for (const ResizeResult& result : run.results) {
-    const Panel after{{centred(result.positions), triangles}, "", {}, theta, words(result.factors)};
+    const Panel after{{centred(result.positions), triangles}, "", {}, pale, words(result.factors)};
     pairs.push_back({{before, after}, {&grid, &result.grid}, result.factors});
   }
   if (pairs.empty()) pairs.push_back({{before}, {&grid}, RowVector3d::Ones()});
 
   RenderOptions options = render_options_of(job.picture);
-  options.heat_map = {0, 1, "vulnerability"};
+  options.heat_map = {0, 1, "vulnerability of cells along a line"};
   options.feature_lines = false;  // Lines of the grid are enough.
   std::vector<SheetRow> rows;
   for (Pair& pair : pairs) rows.push_back(row_of(std::move(pair), shape, map, options, pairs.size()));

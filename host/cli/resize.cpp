@@ -106,8 +106,8 @@ void run(const ResizeJob& job, const CommonOptions& common) {
   const Stopwatch write;
   write_results(job, done);
   write_faces(job, done);
-  seconds.write = write.seconds();
   write_pictures(job, pictures);
+  seconds.write = write.seconds();
   seconds.total = total.seconds();
   if (!job.json.empty()) write_json(job.json, report_json(job, done, *backend, seconds));
   tell(job, done, seconds.total);
