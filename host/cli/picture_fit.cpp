@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "picture.h"
@@ -13,15 +13,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kTitles = 80;  // Pixels above the meshes of a row, of a picture 1600 pixels wide.
-constexpr int kLeastRow = 100;  // Pixels.
+constexpr double kTitles = 80.0 / 1600;  // Of the picture's width: what is above the meshes of a row.
+constexpr int kLeastRow = 100;           // Pixels.
 
 /// Of the largest panel, to the right and upwards.
 Vector2d extent_of(const std::vector<Panel>& panels, const View& view) {
   const Vector3d across = view.up.cross(view.from);
   const Vector3d right = across.norm() > 0 ? across.normalized() : view.from.unitOrthogonal();
   const Vector3d up = view.from.cross(right).normalized();
-  Vector2d extent = Vector2d::Zero();
+  Vector2d extent = Vector2d::Constant(std::numeric_limits<double>::min());  // A line may be seen from its end.
   for (const Panel& panel : panels) {
     const Eigen::VectorXd x = panel.mesh.positions * right, y = panel.mesh.positions * up;
     extent = extent.cwiseMax(Vector2d(x.maxCoeff() - x.minCoeff(), y.maxCoeff() - y.minCoeff()));
@@ -33,7 +33,7 @@ Vector2d extent_of(const std::vector<Panel>& panels, const View& view) {
 int row_height(const std::vector<Panel>& panels, const RenderOptions& options) {
   const Vector2d extent = extent_of(panels, *options.view);
   const double width = options.width / static_cast<double>(panels.size());
-  const double height = width * extent.y() / extent.x() + kTitles * options.width / 1600;
+  const double height = width * extent.y() / extent.x() + kTitles * options.width;
   return static_cast<int>(std::clamp(height, static_cast<double>(std::min(kLeastRow, options.height)),
                                      static_cast<double>(options.height)));
 }
@@ -47,8 +47,9 @@ PictureFit fit(const std::vector<Panel>& panels, size_t rows, const RenderOption
   for (size_t columns = 1; columns <= count; ++columns) {
     if (count % columns != 0 || (rows > 1 && columns < count)) continue;
     const double width = options.width / static_cast<double>(columns);
-    const double height = options.height / static_cast<double>(count / columns) - kTitles;
-    const double scale = std::min(width / extent.x(), height / extent.y());
+    const double height = options.height / static_cast<double>(count / columns);
+    const double below_titles = std::max(height - kTitles * options.width, height / 2);
+    const double scale = std::min(width / extent.x(), below_titles / extent.y());
     if (scale > best.scale) best = {static_cast<int>(columns), scale};
   }
   return best;

@@ -235,6 +235,22 @@ TEST_F(ResizePicture, ShowsTheGrid) {
   EXPECT_FALSE(usual == read_text(file("p.png"))) << "from behind";
 }
 
+TEST_F(ResizePicture, IsOfAnySizeAndView) {
+  const std::string flat = file("sheet.obj"), line = file("line.obj");
+  write_mesh(flat, sheet(3));
+  write_text(line, "v 0 0 0\nv 1 0 0\nv 3 0 0\nf 1 2 3\n");
+  for (const char* view : {"1,0,0", "0,1,0", "0,0,1"}) {
+    for (const std::string& mesh : {flat, line}) {
+      const Outcome outcome =
+          resize({"--scale", "2,0.5,1", "--scale", "3,1,1", "--picture", file("p.png"), "--vulnerability-picture",
+                  file("v.png"), "--grid-picture", file("g.png"), "--view", view, "--picture-size", "64x64"},
+                 mesh);
+      EXPECT_EQ(outcome.code, 0) << mesh << ' ' << view << ' ' << outcome.err;
+    }
+  }
+  for (const char* size : {"64x64", "1000x64", "64x1000"}) EXPECT_GT(picture("--grid-picture", {}, size).width, 0);
+}
+
 TEST_F(Resizing, APictureIsMadeOrTheBuildSaysWhyNot) {
   const Outcome outcome = resize({"--vulnerability-picture", file("p.png"), "--picture-size", "64x64"});
   EXPECT_EQ(outcome.code, can_render() ? 0 : 4);
