@@ -77,10 +77,10 @@ static inline Cells reached(Vec3 places, real margin, int count) {
 static inline int inside(Range r, int from, int to) { return r.low >= (real)from && r.high < (real)to; }
 static inline Vec3 less3(Vec3 places, int by) { return sub3(places, vec3((real)by, (real)by, (real)by)); }
 
-/// How many cells the triangle touches; which, where `cells` is given.
+/// How many cells the triangle touches; which, where it `lists`.
 static int touched(global const int* corners, const int nx, const int ny, const int nz, const real margin,
                    global const host_scalar* grid, global const host_scalar* positions, global const scalar* residues,
-                   global int* cells) {
+                   const int lists, global int* cells) {
   Places p;
   p.x = places_of(grid, 0, corners, positions, residues);
   p.y = places_of(grid, 1, corners, positions, residues);
@@ -89,7 +89,7 @@ static int touched(global const int* corners, const int nx, const int ny, const 
   // Most triangles of fine meshes lie within one cell.
   if (inside(range_of(p.x), x.first, x.first + 1) && inside(range_of(p.y), y.first, y.first + 1) &&
       inside(range_of(p.z), z.first, z.first + 1) && x.first == x.last && y.first == y.last && z.first == z.last) {
-    if (cells != 0) cells[0] = x.first + nx * (y.first + ny * z.first);
+    if (lists) cells[0] = x.first + nx * (y.first + ny * z.first);
     return 1;
   }
   // From the first cell: large places would take digits from small ones.
@@ -104,30 +104,24 @@ static int touched(global const int* corners, const int nx, const int ny, const 
     for (int j = rows.first; j <= rows.last; ++j) {
       const Cells row = cells_in(cubes_at(p, (real)j + (real)0.5, at_z, radius), x.last - x.first + 1);
       const int before = x.first + nx * (y.first + j + ny * (z.first + k));
-      for (int c = row.first; c <= row.last && cells != 0; ++c) cells[count + c - row.first] = before + c;
+      for (int c = row.first; c <= row.last && lists; ++c) cells[count + c - row.first] = before + c;
       count += max(row.last - row.first + 1, 0);
     }
   }
   return count;
 }
 
-/// Of triangles from `first` on.
-kernel void count_cells(const int count, const int first, const int nx, const int ny, const int nz,
+/// Of triangles from `first` on: counts; or, where it `lists`, the cells, those of triangle `first` + i from numbers[i]
+/// on.
+kernel void touch_cells(const int count, const int first, const int nx, const int ny, const int nz,
                         const host_scalar margin, global const host_scalar* grid, global const int* triangles,
-                        global const host_scalar* positions, global const scalar* residues, global int* counts) {
+                        global const host_scalar* positions, global const scalar* residues, const int lists,
+                        global int* numbers, global int* cells) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  counts[i] = touched(triangles + 3 * (first + i), nx, ny, nz, margin, grid, positions, residues, 0);
-}
-
-/// Those of triangle `first` + i from offsets[i] on.
-kernel void list_cells(const int count, const int first, const int nx, const int ny, const int nz,
-                       const host_scalar margin, global const host_scalar* grid, global const int* triangles,
-                       global const host_scalar* positions, global const scalar* residues, global const int* offsets,
-                       global int* cells) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  touched(triangles + 3 * (first + i), nx, ny, nz, margin, grid, positions, residues, cells + offsets[i]);
+  const int found = touched(triangles + 3 * (first + i), nx, ny, nz, margin, grid, positions, residues, lists,
+                            lists ? cells + numbers[i] : cells);
+  if (!lists) numbers[i] = found;
 }
 
 static inline Vec3 vertex_at(global const host_scalar* vertices, int at) {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "places.h"
+#include "same_places.h"
 
 namespace swage {
 namespace {

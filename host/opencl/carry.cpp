@@ -72,28 +72,17 @@ class OpenClCarry final : public CarryStep {
 
   void count_cells(const GridShape& shape, Slice triangles, Eigen::VectorXi& counts) override {
     counts.resize(triangles.count());
-    Ints result(queue_, counts.size());
-    const Rows3 grid = grid_of(shape, origin_, 0.5);
-    const Visit visit(queue_, {&grid_});
-    grid_.show(grid);
-    count_cells_.launch(triangles.count(), static_cast<int>(triangles.first), shape.cells[0], shape.cells[1],
-                        shape.cells[2], HostNumber{cell_rounding(shape) / 2}, grid_, corners(), positions_, residues_,
-                        result);
-    result.download(counts);
+    const Ints numbers(queue_, counts.size());
+    touch(shape, triangles, 0, numbers, numbers);
+    numbers.download(counts);
   }
 
   void list_cells(const GridShape& shape, Slice triangles, const Eigen::VectorXi& counts,
                   Eigen::VectorXi& cells) override {
     check_rows("CarryStep::list_cells", "counts", counts.size(), triangles.count());
     cells.resize(counts.cast<Index>().sum());
-    Ints result(queue_, cells.size());
-    const Ints offsets(queue_, offsets_of(counts));
-    const Rows3 grid = grid_of(shape, origin_, 0.5);
-    const Visit visit(queue_, {&grid_});
-    grid_.show(grid);
-    list_cells_.launch(triangles.count(), static_cast<int>(triangles.first), shape.cells[0], shape.cells[1],
-                       shape.cells[2], HostNumber{cell_rounding(shape) / 2}, grid_, corners(), positions_, residues_,
-                       offsets, result);
+    const Ints result(queue_, cells.size());
+    touch(shape, triangles, 1, Ints(queue_, offsets_of(counts)), result);
     result.download(cells);
   }
 
@@ -118,6 +107,15 @@ class OpenClCarry final : public CarryStep {
   }
 
  private:
+  void touch(const GridShape& shape, Slice triangles, int lists, const Ints& numbers, const Ints& cells) {
+    const Rows3 grid = grid_of(shape, origin_, 0.5);
+    const Visit visit(queue_, {&grid_});
+    grid_.show(grid);
+    touch_cells_.launch(triangles.count(), static_cast<int>(triangles.first), shape.cells[0], shape.cells[1],
+                        shape.cells[2], HostNumber{cell_rounding(shape) / 2}, grid_, corners(), positions_, residues_,
+                        lists, numbers, cells);
+  }
+
   const Ints& corners() {
     if (!corners_) corners_.emplace(queue_, rest_.mesh->triangles, Layout::rows);
     return *corners_;
@@ -132,8 +130,7 @@ class OpenClCarry final : public CarryStep {
   Visit shown_;  // As long as this lives.
   std::optional<Ints> corners_, next_sides_;  // None, until they are asked for.
   Kernel mean_slippages_{queue_, kStem, "mean_slippages"};
-  Kernel count_cells_{queue_, kStem, "count_cells"};
-  Kernel list_cells_{queue_, kStem, "list_cells"};
+  Kernel touch_cells_{queue_, kStem, "touch_cells"};
   Kernel carry_vertices_{queue_, kStem, "carry_vertices"};
 };
 

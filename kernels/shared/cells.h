@@ -62,13 +62,16 @@ static inline Range not_separated(Edge e, real y, real radius) {
 
 /// The same of a triangle's projection with corners (x, y).
 static inline Range row_in_plane(Vec3 x, Vec3 y, real at_y, real radius) {
-  const Range first = not_separated(edge(x.x, y.x, x.y, y.y, x.z, y.z), at_y, radius);
-  const Range second = not_separated(edge(x.y, y.y, x.z, y.z, x.x, y.x), at_y, radius);
-  const Range third = not_separated(edge(x.z, y.z, x.x, y.x, x.y, y.y), at_y, radius);
-  return common(widened(range_of(x), radius), common(first, common(second, third)));
+  Range row = widened(range_of(x), radius);
+  for (int k = 0; k < 3; ++k) {
+    row = common(row, not_separated(edge(x.x, y.x, x.y, y.y, x.z, y.z), at_y, radius));
+    x = vec3(x.y, x.z, x.x);
+    y = vec3(y.y, y.z, y.x);
+  }
+  return row;
 }
 
-/// The y of the middles of cubes at z that may meet the triangle.
+/// The y of the middles of cubes at z, as far as the triangle reaches along z, that may meet it.
 static inline Range rows_at(Places p, real z, real radius) { return row_in_plane(p.y, p.z, z, radius); }
 
 /// The x of the middles of cubes at (y, z), among rows_at(z), that meet the triangle.
@@ -78,7 +81,9 @@ static inline Range cubes_at(Places p, real y, real z, real radius) {
   const Vec3 normal = cross3(first, second);
   const real reach = radius * (fabs(normal.x) + fabs(normal.y) + fabs(normal.z));
   const real at = normal.y * (y - p.y.x) + normal.z * (z - p.z.x);
-  const Range plane = quotients(range(-reach - at, reach - at), normal.x);
+  // Without area a normal is what rounding makes of it, and an axis as any other.
+  const Range corners = widened(range_of(vec3((real)0, dot3(normal, first), dot3(normal, second))), reach);
+  const Range plane = quotients(range(corners.low - at, corners.high - at), normal.x);
   return common(range(plane.low + p.x.x, plane.high + p.x.x),
                 common(row_in_plane(p.x, p.y, y, radius), row_in_plane(p.x, p.z, z, radius)));
 }

@@ -1,4 +1,4 @@
-#include "places.h"
+#include "same_places.h"
 
 #include <algorithm>
 #include <array>
