@@ -118,6 +118,7 @@ Image picture_of_grid(const ResizeJob& job, Resized& run, const CommonOptions& c
   options.heat_map = {0, 1, "vulnerability of cells along a line"};
   options.feature_lines = false;  // Lines of the grid are enough.
   std::vector<SheetRow> rows;
+  rows.reserve(pairs.size());
   for (Pair& pair : pairs) rows.push_back(row_of(std::move(pair), shape, map, options, pairs.size()));
   std::vector<std::string> titles{title_of(job), "resized"};
   titles.resize(rows.front().panels.size());

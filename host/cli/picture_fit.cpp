@@ -46,8 +46,9 @@ PictureFit fit(const std::vector<Panel>& panels, size_t rows, const RenderOption
   PictureFit best;
   for (size_t columns = 1; columns <= count; ++columns) {
     if (count % columns != 0 || (rows > 1 && columns < count)) continue;
+    const size_t lines = count / columns;
     const double width = options.width / static_cast<double>(columns);
-    const double height = options.height / static_cast<double>(count / columns);
+    const double height = options.height / static_cast<double>(lines);
     const double below_titles = std::max(height - kTitles * options.width, height / 2);
     const double scale = std::min(width / extent.x(), below_titles / extent.y());
     if (scale > best.scale) best = {static_cast<int>(columns), scale};

@@ -113,16 +113,19 @@ Report costs_of(const Resized& run) {
   return costs;
 }
 
+/// Three properties, of the axes.
+void add(std::vector<FaceValues>& faces, const std::string& name, const AxisValues& values) {
+  for (int u = 0; u < 3; ++u) faces.push_back({name + "_" + kAxes[u], values.col(u)});
+}
+
 void write_grid(const std::string& path, Resized& run, const AxisValues& vertices, const AxisValues* scales) {
   if (path.empty()) return;
   const CellMap& map = run.plan.map();
   std::vector<int> cells;
   const Mesh surface = grid_surface(run.plan.shape(), map, vertices, &cells);
   std::vector<FaceValues> faces;
-  for (int u = 0; u < 3; ++u) faces.push_back({std::string("theta_") + kAxes[u], map.theta(cells, u)});
-  for (int u = 0; scales != nullptr && u < 3; ++u) {
-    faces.push_back({std::string("scale_") + kAxes[u], (*scales)(cells, u)});
-  }
+  add(faces, "theta", map.theta(cells, Eigen::all));
+  if (scales != nullptr) add(faces, "scale", (*scales)(cells, Eigen::all));
   write_face_values(path, surface, faces);
 }
 
@@ -146,12 +149,9 @@ void write_faces(const ResizeJob& job, Resized& run) {
   if (!job.vulnerability.empty()) {
     const Vulnerability& found = run.plan.vulnerability();
     std::vector<FaceValues> faces;
-    const auto add = [&](const std::string& name, const AxisValues& values) {
-      for (int u = 0; u < 3; ++u) faces.push_back({name + "_" + kAxes[u], values.col(u)});
-    };
-    add("vulnerability", found.theta);
-    add("slippage", found.slippage);
-    add("curvature", found.curvature);
+    add(faces, "vulnerability", found.theta);
+    add(faces, "slippage", found.slippage);
+    add(faces, "curvature", found.curvature);
     write_face_values(job.vulnerability, run.file.mesh, faces);
   }
   write_grid(job.grid_before, run, rest_vertices(run.plan.shape()), nullptr);

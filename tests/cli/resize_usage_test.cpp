@@ -37,27 +37,27 @@ class ResizeUsage : public Resizing {
     return arguments;
   }
 
-  std::string out_ = file("out.obj");
+  std::string out = file("out.obj");
 };
 
 TEST_F(ResizeUsage, AFactorOrSizeIsThreeNumbers) {
-  for (const char* scale : {"2", "2,1", "2,1,1,1", ""}) expect(2, "three values", {"--scale", scale, "-o", out_});
+  for (const char* scale : {"2", "2,1", "2,1,1,1", ""}) expect(2, "three values", {"--scale", scale, "-o", out});
   for (const char* bad : {"0", "-1", "nan", "inf", "1e-7", "2e6", "two", "1 1", "2x", "--"}) {
     const std::string scale = std::string("1,") + bad + ",1";
-    expect(2, "--scale " + scale + ": '" + bad + "' is not a factor from 1e-6 to 1e6", {"--scale", scale, "-o", out_});
+    expect(2, "--scale " + scale + ": '" + bad + "' is not a factor from 1e-6 to 1e6", {"--scale", scale, "-o", out});
   }
   for (const char* bad : {"0", "-3", "nan", "inf", "big"}) {
     const std::string size = std::string("1,2,") + bad;
-    expect(2, "--size " + size + ": '" + bad + "' is not a size above 0", {"--size", size, "-o", out_});
+    expect(2, "--size " + size + ": '" + bad + "' is not a size above 0", {"--size", size, "-o", out});
   }
-  expect(2, "--size", {"--size", "1,1", "-o", out_});
-  expect(3, "model.obj: --size 1e8,-,-: along x the model is 4 long", {"--size", "1e8,-,-", "-o", out_});
-  expect(3, "along z", {"--size", "-,-,1e-7", "-o", out_});
+  expect(2, "--size", {"--size", "1,1", "-o", out});
+  expect(3, "model.obj: --size 1e8,-,-: along x the model is 4 long", {"--size", "1e8,-,-", "-o", out});
+  expect(3, "along z", {"--size", "-,-,1e-7", "-o", out});
 }
 
 TEST_F(ResizeUsage, OptionsThatDoNotGoTogether) {
   const auto with = [&](Arguments more) {
-    more.insert(more.end(), {"--scale", "2,1,1", "-o", out_});
+    more.insert(more.end(), {"--scale", "2,1,1", "-o", out});
     return more;
   };
   expect(2, "--size", with({"--size", "1,1,1"}));
@@ -81,9 +81,9 @@ TEST_F(ResizeUsage, OptionsThatDoNotGoTogether) {
 TEST_F(ResizeUsage, ThereIsSomethingToDoAndToWrite) {
   expect(2, "nothing to write", {"--scale", "2,1,1"});
   expect(2, "nothing to write", {});
-  expect(2, "-o is of a result: say of what size with --scale", {"-o", out_});
+  expect(2, "-o is of a result: say of what size with --scale", {"-o", out});
   expect(2, "--grid-after is of a result", {"--grid-after", file("grid.ply")});
-  expect(2, "--view, --up and --picture-size are for pictures", {"--scale", "2,1,1", "-o", out_, "--up", "z"});
+  expect(2, "--view, --up and --picture-size are for pictures", {"--scale", "2,1,1", "-o", out, "--up", "z"});
   expect(2, "MESH", {}, "--quiet");
 }
 
@@ -125,7 +125,7 @@ TEST_F(ResizeUsage, AResultMayTakeTheModelsPlace) {
 
 TEST_F(ResizeUsage, ProtectionsThatAreNotUnderstood) {
   const auto protect = [&](const std::string& text) {
-    return Arguments{"--scale", "2,1,1", "-o", out_, "--protect", text};
+    return Arguments{"--scale", "2,1,1", "-o", out, "--protect", text};
   };
   for (const char* text : {"", "=1", ":x", "w<3", "0-9:w", "0-9:", "component:", "x<1:xq", "group:", "box:1,2,3:x",
                            "0-9=", "0-9=a", "x=0.5", "foo:x=1", "@"}) {
@@ -134,7 +134,7 @@ TEST_F(ResizeUsage, ProtectionsThatAreNotUnderstood) {
   }
   for (const char* text : {"0-9=2", "0-9:x=-0.1", "0-9=nan", "x<=1=1e9"})
     expect(2, "is not from 0 to 1", protect(text));
-  expect(2, "--release 0-9=1: ", {"--scale", "2,1,1", "-o", out_, "--release", "0-9=1"});
+  expect(2, "--release 0-9=1: ", {"--scale", "2,1,1", "-o", out, "--release", "0-9=1"});
   expect(3, "--protect component:2: Selection: 'component:2'", protect("component:2"));
   expect(3, "--protect group:wheel:x=0.5: Selection: 'group:wheel': no such group", protect("group:wheel:x=0.5"));
   expect(3, "--protect x>5: ", protect("x>5"));
@@ -150,20 +150,20 @@ TEST_F(ResizeUsage, AProtectionOfTwoMeaningsIsRefusedWithBoth) {
   expect(2,
          "'group:ball' and 'group:ball:x' both select something: write 'group:ball & x>=0%:x=0.5' for the first or "
          "'group:ball:x:xyz=0.5' for the second",
-         {"--scale", "2,1,1", "-o", out_, "--protect", "group:ball:x=0.5"}, file("named.obj"));
+         {"--scale", "2,1,1", "-o", out, "--protect", "group:ball:x=0.5"}, file("named.obj"));
 }
 
 TEST_F(ResizeUsage, UsageIsCheckedBeforeTheModelIsRead) {
-  expect(2, "three values", {"--scale", "2", "-o", out_}, file("missing.obj"));
-  expect(2, "--protect 0-9:w", {"--scale", "2,1,1", "-o", out_, "--protect", "0-9:w"}, file("missing.obj"));
-  expect(2, "--grid", {"--scale", "2,1,1", "-o", out_, "--grid", "x"}, file("missing.obj"));
+  expect(2, "three values", {"--scale", "2", "-o", out}, file("missing.obj"));
+  expect(2, "--protect 0-9:w", {"--scale", "2,1,1", "-o", out, "--protect", "0-9:w"}, file("missing.obj"));
+  expect(2, "--grid", {"--scale", "2,1,1", "-o", out, "--grid", "x"}, file("missing.obj"));
 }
 
 TEST_F(ResizeUsage, BadModelsAreRefusedWithTheirPlace) {
   write_text(file("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   write_text(file("short.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
   write_text(file("point.obj"), "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
-  const Arguments arguments{"--scale", "2,1,1", "-o", out_};
+  const Arguments arguments{"--scale", "2,1,1", "-o", out};
   expect(3, "missing.obj", arguments, file("missing.obj"));
   expect(3, "bad.obj: line 4", arguments, file("bad.obj"));
   expect(3, "short.obj: line 5: a face has fewer than three vertices", arguments, file("short.obj"));
@@ -181,17 +181,18 @@ TEST_F(ResizeUsage, AFullDiskBehindStdoutExitsWith4) {
 
 TEST_F(ResizeUsage, InterruptedNothingIsWritten) {
   if (!Terminal::exists()) GTEST_SKIP() << "this machine has no pseudo-terminals";
-  const TempFolder out;
+  const TempFolder written;
   for (const char* stage : {"vulnerability", "scales"}) {
     write_mesh(model_, sphere(1, stage == std::string("scales") ? 3 : 7));
     Terminal terminal;
-    const Running running = start({"resize", model_, "--scale", "3,1,0.2", "--scale", "1,2,1", "--grid", "120", "-o",
-                                   out / "out.obj", "--json", out / "report.json", "--vulnerability", out / "v.ply"},
-                                  "/dev/null", terminal.path());
+    const Running running =
+        start({"resize", model_, "--scale", "3,1,0.2", "--scale", "1,2,1", "--grid", "120", "-o", written / "out.obj",
+               "--json", written / "report.json", "--vulnerability", written / "v.ply"},
+              "/dev/null", terminal.path());
     ASSERT_TRUE(terminal.wait_for(stage)) << stage;
     kill(running.process, SIGINT);
     EXPECT_EQ(running.wait(), 130) << stage;
-    EXPECT_EQ(names_in(out.path()), std::vector<std::string>{});
+    EXPECT_EQ(names_in(written.path()), std::vector<std::string>{});
   }
 }
 
