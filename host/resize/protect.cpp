@@ -41,7 +41,9 @@ Span span_of(const GridShape& shape, const Eigen::AlignedBox3d& box, int u) {
   const auto cells = [&](double at) {
     return std::clamp((at - shape.corner[u]) / shape.size[u] * count, -1.0, count + 1);
   };
-  const double low = std::floor(cells(box.min()[u]) + kGrazing), high = std::ceil(cells(box.max()[u]) - kGrazing) - 1;
+  double low = std::floor(cells(box.min()[u]) + kGrazing);
+  const double end = cells(box.max()[u]), high = std::ceil(end - kGrazing) - 1;
+  if (end <= count) low = std::min(low, count - 1);  // Of a box without thickness on the grid's upper face.
   return {static_cast<int>(std::max(low, 0.0)), static_cast<int>(std::min(std::max(high, low), count - 1))};
 }
 
