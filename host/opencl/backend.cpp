@@ -42,6 +42,9 @@ class OpenClBackend final : public Backend {
   std::unique_ptr<LocalMapStep> local_map(const LocalMapStep::Rest& rest) const override {
     return opencl_local_map(context_, rest);
   }
+  std::unique_ptr<CarryStep> carry(CarryStep::Rest rest) const override {
+    return opencl_carry(context_, std::move(rest));
+  }
 
  private:
   Device facts_;

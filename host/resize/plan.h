@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "assemble.h"
-#include "coverage.h"
 #include "grid.h"
 #include "preparation.h"
 #include "scales.h"
@@ -26,12 +25,11 @@ struct GridSolves {
 
 struct ResizePlan {
   ResizeOptions options;
-  Mesh mesh;
+  std::shared_ptr<const Mesh> mesh;
   GridShape shape;
 
   // Filled by prepare().
   Vulnerability vulnerability = {};
-  Coverage coverage = {};
   CellMap found = {}, map = {};                ///< As found, and as it counts.
   AxisValues asked = {};                       ///< #C × 3: 1 where the user protects, else 0.
   std::map<std::string, double> seconds = {};  ///< Of the preparation, by stage.
