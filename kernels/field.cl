@@ -150,9 +150,9 @@ kernel void run_tape(const int items, const int count, const int uniforms, const
                      global const int* offsets, global const int* uses, global const scalar* weights,
                      global const host_scalar* points, global scalar* values, global scalar* slopes,
                      global host_scalar* field, global host_scalar* gradients, global host_scalar* by_parameters) {
-  const int local = (int)get_local_id(0);
-  if (local >= WORKERS || (int)get_global_id(0) >= items) return;
-  const int worker = (int)get_group_id(0) * WORKERS + local, workers = items / GROUP * WORKERS;
+  const int place = (int)get_local_id(0);
+  if (place >= WORKERS || (int)get_global_id(0) >= items) return;
+  const int worker = (int)get_group_id(0) * WORKERS + place, workers = items / GROUP * WORKERS;
   const int slots = uniforms + 3 + length;
   for (int s = 0; s < uniforms; ++s) VSTORE(ALL(fixed[s]), slot_place(s, slots, worker), values);
   for (int i = worker; i * LANES < count; i += workers) {
