@@ -27,11 +27,13 @@ struct Lattice {
   }
 };
 
+/// Cells that the surface may pass, and of those that it seems to the lowest and highest along each axis.
 struct NearCells {
   Lattice lattice;
   std::vector<Place> cells;
+  Place low = {}, high = {};
 
-  /// Cells along the longest side of their box.
+  /// Cells along the longest side of the box.
   int extent() const;
   bool touch_border() const;
 };

@@ -6,7 +6,7 @@
 namespace swage {
 namespace {
 
-constexpr std::size_t kMostValues = 500'000;
+constexpr std::size_t kMostValues = 50'000;
 
 bool commutes(TapeOp op) {
   return op == TapeOp::add || op == TapeOp::multiply || op == TapeOp::minimum || op == TapeOp::maximum;

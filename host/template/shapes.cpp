@@ -82,7 +82,8 @@ Shape cone(int axis, Scalar bottom, Scalar top, Scalar height) {
     const Scalar radius = mix(bottom, top, q.along / height + 0.5);
     const Scalar slant = length({top - bottom, height});
     const Scalar side = (q.radial - radius) * (height / slant);
-    return max(side, abs(q.along) - height / 2);
+    // Of a flat cone the side alone hardly grows.
+    return max(max(side, q.radial - max(bottom, top)), abs(q.along) - height / 2);
   };
 }
 

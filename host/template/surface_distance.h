@@ -1,7 +1,7 @@
 // Signed distances from a mesh.
 //
-// Bærentzen, Aanæs: Signed Distance Computation Using the Angle Weighted Pseudonormal. IEEE Transactions on Visualization
-// and Computer Graphics 11(3), 2005.
+// Bærentzen, Aanæs: Signed Distance Computation Using the Angle Weighted Pseudonormal. IEEE Transactions on
+// Visualization and Computer Graphics 11(3), 2005.
 #pragma once
 
 #include <vector>

@@ -25,6 +25,7 @@ struct Template::Content {
 namespace {
 
 constexpr std::size_t kManyParameters = 256, kManyNodes = 4096;
+constexpr std::size_t kMostPlaces = 10'000;  // Of one node.
 
 std::string path_in(const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
 
@@ -81,13 +82,19 @@ TemplateParameter read_parameter(Fields& fields) {
   return parameter;
 }
 
-/// The same shape, which is asked only once at each place: nodes may be used again and again.
+/// The same shape, which is asked only once at each place, since nodes may be used again and again, and copied for
+/// nothing.
 Shape once_at_each_place(Shape shape) {
-  const auto known = std::make_shared<std::map<std::array<int, 3>, Scalar>>();
-  return [shape = std::move(shape), known](const Point& p) {
+  struct Known {
+    Shape shape;
+    std::map<std::array<int, 3>, Scalar> values;
+  };
+  const auto known = std::make_shared<Known>(Known{std::move(shape), {}});
+  return [known](const Point& p) {
     const std::array<int, 3> place = {p[0].id, p[1].id, p[2].id};
-    if (const auto found = known->find(place); found != known->end()) return found->second;
-    return known->emplace(place, shape(p)).first->second;
+    if (const auto found = known->values.find(place); found != known->values.end()) return found->second;
+    if (known->values.size() == kMostPlaces) throw TapeTooLong();
+    return known->values.emplace(place, known->shape(p)).first->second;
   };
 }
 

@@ -83,7 +83,7 @@ TEST_P(ShippedTemplates, AreSurfacesEverywhere) {
                                  : std::uniform_int_distribution<int>(0, 1)(random);
       parameters[p] = range.least + part * (range.most - range.least);
     }
-    const Mesh mesh = template_mesh(of, parameters, {24, nullptr});
+    const Mesh mesh = template_mesh(of, parameters, {64, nullptr});
     EXPECT_GT(mesh.triangles.rows(), 50);
     EXPECT_LT(extents(mesh).norm(), 30 * extents(usual).norm());
   }
