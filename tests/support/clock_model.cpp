@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDialX = 25, kDialY = 83, kDialFront = 16, kDialRadius = 12;
-constexpr int kDentils = 25, kTeeth = 28, kLinks = 34;  // A row, of two rows, of a chain.
+constexpr int kDentils = 49, kTeeth = 49;  // Of a row.
 
 Mesh block(const Vector3d& low, const Vector3d& high, double bevel = 0.3) {
   return moved(slab(high - low, bevel), (low + high) / 2);
@@ -62,7 +62,7 @@ void add_pendulum(Assembler& made) {
   made.add("nut", moved(ball({0.7, 0.5, 0.7}, made.steps(12)), {kDialX, bob - 5.2, z}));
 }
 
-/// A weight on a chain whose links stand across each other by turns.
+/// A weight on a cord.
 void add_weight(Assembler& made, double x, double height) {
   const double z = 10;
   Outline profile = {{0, 0}, {1.9, 0}};
@@ -70,24 +70,13 @@ void add_weight(Assembler& made, double x, double height) {
   profile.insert(profile.end(), shoulder.begin(), shoulder.end());
   profile.insert(profile.end(), {{0.4, 10.4}, {0.4, 11}, {0, 11}});
   made.add("weight", moved(turned(profile, made.steps(24)), {x, height, z}));
-  const double first = height + 11, pitch = (68.6 - first) / kLinks;
-  for (int i = 0; i < kLinks; ++i) {
-    Mesh link = about(i % 2 == 0 ? 0 : 2, ring(0.55, 0.16, made.steps(12), made.steps(6)));
-    link.positions.col(1) *= (pitch / 2 + 0.2) / 0.71;
-    made.add("link", moved(link, {x, first + pitch * (i + 0.5), z}));
-  }
+  made.add("cord", rod({{x, height + 11, z}, {x, 69, z}}, 0.25, made.steps(8)));
 }
 
 void add_column(Assembler& made, const std::string& name, double x, double z, double low, double high, double radius) {
   const int around = made.steps(24);
   const double length = high - low;
-  Outline shaft = {{0, 0}};
-  for (int i = 0; i <= made.steps(10); ++i) {
-    const double part = static_cast<double>(i) / made.steps(10);
-    shaft.emplace_back(radius * (1 - 0.18 * part * part), 1.2 + (length - 2.4) * part);
-  }
-  shaft.front()[1] = 1.2;
-  shaft.emplace_back(0, length - 1.2);
+  const Outline shaft = {{0, 1.2}, {radius, 1.2}, {radius, length - 1.2}, {0, length - 1.2}};
   made.add(name, moved(turned(shaft, around), {x, low, z}));
   made.add(name + " foot", moved(ring(radius * 0.8, radius * 0.5, around, made.steps(8)), {x, low + 0.9, z}));
   made.add(name + " head", moved(ring(radius * 0.7, radius * 0.5, around, made.steps(8)), {x, high - 0.9, z}));
@@ -121,19 +110,18 @@ void add_case(Assembler& made) {
     add_column(made, "column", x, 17.5, 17, 69, 1.6);
     add_column(made, "hood column", x - (x < 25 ? 2 : -2), 17.5, 71, 98, 1.2);
   }
-  // Half a disc above the hood, with a ring in its middle.
-  Outline arch = arc({0, 0}, {17, 9.2}, 0, kPi, made.steps(28));
-  made.add("pediment", moved(pulled(arch, 12), {25, 102, 9}));
+  // A gable above the hood, with a ring in its middle.
+  made.add("pediment", moved(pulled({{-19, 0}, {19, 0}, {2, 9.2}, {-2, 9.2}}, 12), {25, 102, 9}));
   made.add("rosette", moved(about(2, ring(2.2, 0.7, made.steps(32), made.steps(12))), {25, 105.6, 15}));
   made.add("rosette middle", moved(ball({1.1, 1.1, 0.7}, made.steps(16)), {25, 105.6, 15}));
   for (int i = 0; i < kDentils; ++i) {
     const double x = 3 + 44.0 * i / (kDentils - 1);
-    made.add("dentil", block({x - 0.55, 96.6, 16.5}, {x + 0.55, 98, 19.8}, 0.1));
+    made.add("dentil", block({x - 0.3, 96.6, 16.5}, {x + 0.3, 98, 19.8}, 0.1));
   }
   for (const double y : {7.0, 16.0}) {
     for (int i = 0; i < kTeeth; ++i) {
       const double x = 3 + 44.0 * i / (kTeeth - 1);
-      made.add("tooth", block({x - 0.5, y - 0.6, 20.5}, {x + 0.5, y + 0.6, 21.6}, 0.1));
+      made.add("tooth", block({x - 0.3, y - 0.6, 20.5}, {x + 0.3, y + 0.6, 21.6}, 0.1));
     }
   }
   add_finial(made, 25, 110.8, 1.1);
