@@ -25,6 +25,7 @@ class CpuBackend final : public Backend {
   std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const override {
     return cpu_closest_normal(normals);
   }
+  std::unique_ptr<CarryStep> carry(CarryStep::Rest rest) const override { return cpu_carry(std::move(rest)); }
 };
 
 }  // namespace

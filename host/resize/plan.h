@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "assemble.h"
-#include "coverage.h"
 #include "grid.h"
 #include "preparation.h"
 #include "scales.h"
@@ -14,6 +13,9 @@
 #include "swage/resize.h"
 
 namespace swage {
+
+/// Vulnerability from which a cell counts as protected where the user is told.
+constexpr double kProtected = 0.5;
 
 /// What depends on the map.
 struct GridSolves {
@@ -23,13 +25,13 @@ struct GridSolves {
 
 struct ResizePlan {
   ResizeOptions options;
-  Mesh mesh;
+  std::shared_ptr<const Mesh> mesh;
   GridShape shape;
 
   // Filled by prepare().
   Vulnerability vulnerability = {};
-  Coverage coverage = {};
   CellMap found = {}, map = {};                ///< As found, and as it counts.
+  AxisValues asked = {};                       ///< #C × 3: 1 where the user protects, else 0.
   std::map<std::string, double> seconds = {};  ///< Of the preparation, by stage.
   bool prepared = false;
 
@@ -46,6 +48,8 @@ void check_target(const GridShape& shape, const ResizeTarget& target);
 GridShape shape_of(const PositionsRef& positions, const ResizeOptions& options);
 /// Once. False where `progress` cancelled: another call begins anew.
 bool prepare(ResizePlan& plan, const ProgressFn& progress);
+/// As found.
+void reset_map(ResizePlan& plan);
 /// Those of the map as it counts.
 const GridSolves& solves_of(ResizePlan& plan);
 

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kProtected = 0.5;  // Vulnerability from which a cell counts as protected here.
-constexpr double kKept = 0.02;      // Size is kept up to this.
+constexpr double kKept = 0.05;    // Size is kept up to this,
+constexpr double kMissed = 0.05;  // and told of where more than this part of the protected cells do not keep it.
 
 std::string rounded(double value) {
   std::array<char, 32> text = {};
@@ -22,42 +22,71 @@ std::string rounded(double value) {
 /// Of the cells protected along an axis.
 struct Protected {
   double longest = 0;                 ///< The most of a row that they take up.
-  double least = INFINITY, most = 0;  ///< Scales.
+  double count = 0, changed = 0;      ///< All, and those that do not keep their size.
+  double least = INFINITY, most = 0;  ///< Their scales.
 };
 
-Protected protected_along(const GridShape& shape, const CellMap& map, const AxisValues& scales, int u) {
+Protected protected_along(const GridShape& shape, const AxisValues& theta, const AxisValues& scales, int u) {
   Protected found;
   const Index stride = shape.cells.stride(u), rows = shape.cells.count() / shape.cells[u];
   for (Index row = 0; row < rows; ++row) {
     const Index first = row / stride * stride * shape.cells[u] + row % stride;
-    int count = 0;
+    double count = 0;
     for (Index i = 0; i < shape.cells[u]; ++i) {
       const Index c = first + i * stride;
-      if (map.theta(c, u) < kProtected) continue;
-      ++count;
+      if (theta(c, u) < kProtected) continue;
+      count += 1;
+      found.changed += std::abs(scales(c, u) - 1) > kKept ? 1 : 0;
       found.least = std::min(found.least, scales(c, u));
       found.most = std::max(found.most, scales(c, u));
     }
-    found.longest = std::max(found.longest, static_cast<double>(count) / shape.cells[u]);
+    found.count += count;
+    found.longest = std::max(found.longest, count / shape.cells[u]);
   }
   return found;
 }
 
+/// Where it reaches farther than the new box.
+std::string too_long(const Protected& found, double factor) {
+  return "where it is longest it takes up " + rounded(found.longest) + " of the box, and " + rounded(factor) +
+         " is asked for";
+}
+
+std::string along(int u) { return std::string("along ") + "xyz"[u] + ", "; }
+
+std::string scales_of(const Protected& found) {
+  return " (scales from " + rounded(found.least) + " to " + rounded(found.most) + ")";
+}
+
 void tell_kept_size(const ResizePlan& plan, ResizeResult& result) {
   for (int u = 0; u < 3; ++u) {
-    if (!plan.shape.extends(u) || result.factors[u] == 1) continue;
-    const Protected found = protected_along(plan.shape, plan.map, result.scales, u);
-    if (found.longest == 0 || (found.least >= 1 - kKept && found.most <= 1 + kKept)) continue;
-    const std::string along = std::string("along ") + "xyz"[u] + " ";
-    std::string why = "there is little room beside them; release some of them, or give --keep size more weight";
+    if (!plan.shape.extends(u)) continue;
+    const Protected found = protected_along(plan.shape, plan.map.theta, result.scales, u);
+    if (found.changed <= kMissed * found.count) continue;
+    std::string why = "there is too little room beside it";
+    std::string remedy = "release some of it, or keep its size with more weight";
     if (found.longest > result.factors[u]) {
-      why = "they take up " + rounded(found.longest) + " of the box where they are longest, and " +
-            rounded(result.factors[u]) + " is asked for; ask for more, or release some of them";
-    } else if (found.longest == 1) {
-      why = "they reach from end to end; release some of them";
+      why = too_long(found, result.factors[u]);
+      remedy = "ask for more, or release some of it";
+    } else if (found.longest == 1 && result.factors[u] != 1) {
+      why = "it reaches from end to end";
+      remedy = "release some of it";
     }
-    result.report.warnings.push_back(along + "not all that is vulnerable keeps its size, scales are between " +
-                                     rounded(found.least) + " and " + rounded(found.most) + ": " + why);
+    result.report.warnings.push_back(along(u) + rounded(100 * found.changed / found.count) +
+                                     " % of what is vulnerable does not keep its size" + scales_of(found) + ": " + why +
+                                     "; " + remedy);
+  }
+}
+
+/// Of shapes that are kept only what the user protects: that other parts shrink is how the method makes room.
+void tell_kept_shape(const ResizePlan& plan, ResizeResult& result) {
+  for (int u = 0; u < 3; ++u) {
+    if (!plan.shape.extends(u)) continue;
+    const Protected found = protected_along(plan.shape, plan.asked, result.scales, u);
+    if (found.count == 0 || found.longest <= result.factors[u]) continue;
+    result.report.warnings.push_back(along(u) + "what is protected is larger than the new size, and shrinks" +
+                                     scales_of(found) + ": " + too_long(found, result.factors[u]) +
+                                     "; ask for more, or release some of it");
   }
 }
 
@@ -74,7 +103,7 @@ void tell(const ResizePlan& plan, const ResizeTarget& target, ResizeResult& resu
     result.report.warnings.push_back(
         "the grid's solves did not reach the tolerance: the result is valid, but not best");
   }
-  if (target.keep == ResizeKeep::size) tell_kept_size(plan, result);
+  target.keep == ResizeKeep::size ? tell_kept_size(plan, result) : tell_kept_shape(plan, result);
 }
 
 }  // namespace swage
