@@ -1,6 +1,7 @@
 // Models of our own making, resized: at rest, by plain scaling, and as resize() does it.
 //
-//   resize_pictures FOLDER [NAME...]   writes there resized.png, of those named or of all, and of each NAME.grid.png: its
+//   resize_pictures FOLDER [NAME...]   writes there resized.png, of those named or of all, and of each NAME.grid.png:
+//   its
 //                                      protective grid, before and after, coloured by vulnerability along the axis.
 #include <algorithm>
 #include <cstdio>
@@ -99,7 +100,8 @@ SheetRow row_of(const Exhibit& exhibit, const std::filesystem::path& folder) {
   options.heat_map = {0, 1, "vulnerability"};
   write(folder / (exhibit.name + ".grid.png"),
         render({grid_panel(plan.shape(), plan.map(), rest_vertices(plan.shape()), axis),
-                grid_panel(plan.shape(), plan.map(), result.grid, axis)}, options));
+                grid_panel(plan.shape(), plan.map(), result.grid, axis)},
+               options));
   return row;
 }
 

@@ -34,8 +34,8 @@ class Welded {
  private:
   int at(const Vector3d& point) {
     const Vector3d steps = point * 1e6;
-    const auto [found, fresh] = numbers_.try_emplace({std::llround(steps[0]), std::llround(steps[1]), std::llround(steps[2])},
-                                                     static_cast<int>(points_.size()));
+    const auto [found, fresh] = numbers_.try_emplace(
+        {std::llround(steps[0]), std::llround(steps[1]), std::llround(steps[2])}, static_cast<int>(points_.size()));
     if (fresh) points_.push_back(point);
     return found->second;
   }
@@ -73,7 +73,8 @@ Mesh plate(int columns, int rows, double side, double thickness, const std::vect
       }
       // Rings from the hole to the square.
       const auto point = [&](int i, double part) {
-        const double step = (i % cells) / static_cast<double>(cells), angle = 2 * std::numbers::pi * (i + 0.5 * cells) / around;
+        const double step = (i % cells) / static_cast<double>(cells),
+                     angle = 2 * std::numbers::pi * (i + 0.5 * cells) / around;
         const Vector2d sides[4] = {{1 - step, 1}, {0, 1 - step}, {step, 0}, {1, step}};
         const Vector2d outer = corner + side * sides[(i / cells) % 4];
         const Vector2d inner = middle + hole_radius * Vector2d(std::cos(angle), std::sin(angle));

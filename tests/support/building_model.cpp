@@ -24,7 +24,8 @@ Outline arched(double width, double height, int steps) {
 
 /// A window with its sill, on a wall that faces -z or z, or ±x where `across`.
 void add_window(Assembler& made, const Vector3d& at, double width, double height, bool across = false) {
-  Mesh glass = pulled(arched(width, height, made.steps(16)), 0.8), sill = moved(slab({width + 0.8, 0.5, 1.2}, 0.1), {0, -0.25, 0});
+  Mesh glass = pulled(arched(width, height, made.steps(16)), 0.8),
+       sill = moved(slab({width + 0.8, 0.5, 1.2}, 0.1), {0, -0.25, 0});
   if (across) {
     glass = quarter_turned(1, glass);
     sill = quarter_turned(1, sill);
@@ -41,7 +42,8 @@ Mesh gabled(double low_x, double high_x, double half_width, double eaves, double
 
 void add_pillar(Assembler& made, const Vector3d& foot, double height, double radius) {
   Outline profile = {{0, 0}, {1.4 * radius, 0}};
-  for (const Vector2d& p : arc({1.1 * radius, 0.4}, {0.3 * radius, 0.4}, 0, kPi / 2, made.steps(3))) profile.push_back(p);
+  for (const Vector2d& p : arc({1.1 * radius, 0.4}, {0.3 * radius, 0.4}, 0, kPi / 2, made.steps(3)))
+    profile.push_back(p);
   for (const Vector2d& p : cut({{radius, 1}, {0.85 * radius, height - 1}}, made.steps(4))) profile.push_back(p);
   for (const Vector2d& p : arc({1.1 * radius, height - 0.4}, {0.3 * radius, 0.4}, -kPi / 2, 0, made.steps(3))) {
     profile.push_back(p);
@@ -104,19 +106,21 @@ Assembled church(double detail) {
     const Vector3d out(0, 2.6 * std::cos(angle), 2.6 * std::sin(angle));
     made.add("rose bar", rod({Vector3d(2.9, 26, 0) - out, Vector3d(2.9, 26, 0) + out}, 0.15, made.steps(8)));
   }
-  made.add("door", moved(quarter_turned(1, pulled(arched(4, 5, made.steps(20)), 0.8)),
-                         {2.9, 1, 0}));
-  for (int step = 0; step < 3; ++step) made.add("step", block({0.4 + 0.6 * step, 1, -4.0 + step}, {3, 1.4 + 0.3 * step, 4.0 - step}));
+  made.add("door", moved(quarter_turned(1, pulled(arched(4, 5, made.steps(20)), 0.8)), {2.9, 1, 0}));
+  for (int step = 0; step < 3; ++step)
+    made.add("step", block({0.4 + 0.6 * step, 1, -4.0 + step}, {3, 1.4 + 0.3 * step, 4.0 - step}));
   for (const double side : {-1.0, 1.0}) {
     for (int i = 0; i < 7; ++i) add_window(made, {19.0 + 4 * i + (i > 5 ? 16 : 0), 13.4, side * 9}, 1.6, 3.4);
     for (int i = 0; i < 6; ++i) add_window(made, {19.5 + 4.2 * i, 3.5, side * 16}, 1.8, 4);
-    for (int i = 0; i < 4; ++i) made.add("buttress", block({17.0 + 7.5 * i, 1, side * 16.8 - 1}, {18.2 + 7.5 * i, 9, side * 16.8 + 1}));
+    for (int i = 0; i < 4; ++i)
+      made.add("buttress", block({17.0 + 7.5 * i, 1, side * 16.8 - 1}, {18.2 + 7.5 * i, 9, side * 16.8 + 1}));
     add_window(made, {9, 20, side * 6}, 2, 5);
     for (int i = 0; i < 5; ++i) add_pillar(made, {20.0 + 9 * i, 1, side * 21}, 8, 0.7);
     made.add("beam", block({18, 9, side * 21 - 1.2}, {58, 10.2, side * 21 + 1.2}));
     for (const double x : {3.0, 15.0}) made.add("pinnacle", moved(spike(made, 1, 5), {x, 35.5, side * 6}));
     for (const double x : {45.0, 53.0}) made.add("pinnacle", moved(spike(made, 1, 6), {x, 17.8, side * 23}));
-    for (const double x : {46.5, 49.0}) made.add("band", block({x - 0.2, 1, side * 24 - 0.3}, {x + 2, 17, side * 24 + 0.3}));
+    for (const double x : {46.5, 49.0})
+      made.add("band", block({x - 0.2, 1, side * 24 - 0.3}, {x + 2, 17, side * 24 + 0.3}));
   }
   for (int i = 0; i < 12; ++i) {
     const double angle = -0.42 * kPi + 0.84 * kPi * i / 11;
@@ -134,14 +138,16 @@ Assembled fountain(double detail) {
     for (const Vector2d& p : arc({0, depth}, {radius, depth}, -kPi / 2 + 0.15, 0, made.steps(10))) profile.push_back(p);
     profile.front()[1] = profile[1][1];
     profile.insert(profile.end(), {{radius + 0.5, depth}, {radius + 0.5, depth + 0.5}, {radius - 0.5, depth + 0.5}});
-    for (const Vector2d& p : arc({0, depth}, {radius - 0.5, 0.6 * depth}, 0, -kPi / 2, made.steps(8))) profile.push_back(p);
+    for (const Vector2d& p : arc({0, depth}, {radius - 0.5, 0.6 * depth}, 0, -kPi / 2, made.steps(8)))
+      profile.push_back(p);
     profile.back() = {0, 0.4 * depth};
     made.add(name, moved(turned(profile, made.steps(56)), middle + Vector3d(0, low, 0)));
   };
   basin("lower basin", 10, 0, 2.2);
   basin("middle basin", 5.5, 8, 1.6);
   basin("upper basin", 3, 14, 1.2);
-  for (const auto& [low, high] : {std::pair{0.8, 9.0}, {9.0, 15.0}}) add_pillar(made, middle + Vector3d(0, low, 0), high - low, 1.2);
+  for (const auto& [low, high] : {std::pair{0.8, 9.0}, {9.0, 15.0}})
+    add_pillar(made, middle + Vector3d(0, low, 0), high - low, 1.2);
   made.add("jet", moved(turned({{0, 0}, {0.4, 0}, {0.25, 3}, {0, 6}}, made.steps(16)), middle + Vector3d(0, 15, 0)));
   // Drops off the rims of the basins; a crowd around.
   for (int i = 0; i < kDrops; ++i) {

@@ -38,8 +38,7 @@ Mesh body(const Assembler& made) {
   std::vector<Path> rings;
   const auto add = [&](const Station& at) {
     Path points;
-    for (const Vector2d& p :
-         rounded_rectangle({2 * at.half_width, at.top - at.bottom}, at.corner, made.steps(8))) {
+    for (const Vector2d& p : rounded_rectangle({2 * at.half_width, at.top - at.bottom}, at.corner, made.steps(8))) {
       points.emplace_back(at.x, (at.top + at.bottom) / 2 + p[1], p[0]);
     }
     rings.push_back(points);

@@ -40,10 +40,10 @@ void add_dial(Assembler& made) {
     made.add("minute", moved(ball(Vector3d::Constant(0.2), made.steps(8)), at(10.7)));
   }
   const auto hand = [&](const std::string& name, double length, double width, double angle, double z) {
-    const Outline outline = {{-width, -0.2 * length}, {width, -0.2 * length}, {width, 0.7 * length}, {0, length},
-                             {-width, 0.7 * length}};
-    made.add(name, placed(pulled(outline, 0.3), Translation3d(kDialX, kDialY, front + z) *
-                                                    AngleAxisd(-angle, Vector3d::UnitZ())));
+    const Outline outline = {
+        {-width, -0.2 * length}, {width, -0.2 * length}, {width, 0.7 * length}, {0, length}, {-width, 0.7 * length}};
+    made.add(name, placed(pulled(outline, 0.3),
+                          Translation3d(kDialX, kDialY, front + z) * AngleAxisd(-angle, Vector3d::UnitZ())));
   };
   hand("hour hand", 6, 0.45, 10.15 / 12 * 2 * kPi, 1.3);
   hand("minute hand", 9.2, 0.35, 9.0 / 60 * 2 * kPi, 1.6);

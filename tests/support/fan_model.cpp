@@ -74,8 +74,10 @@ void add_motor(Assembler& made) {
   hub.back()[0] = 0;
   made.add("hub", at_cage(turned(hub, around), 0.2));
   for (int i = 0; i < 5; ++i) made.add("blade", blade(made, kPi / 2 + 2 * kPi * i / 5));
-  for (const double z : {-4.6, -5.2, -5.8, -6.4, -7.0, -7.6}) made.add("cooling rib", at_cage(ring(2.6, 0.14, around, made.steps(6)), z));
-  made.add("swivel knob", moved(turned({{0, 0}, {0.5, 0}, {0.6, 1}, {0, 1.2}}, made.steps(20)), {0, kHeight + 2.4, -6}));
+  for (const double z : {-4.6, -5.2, -5.8, -6.4, -7.0, -7.6})
+    made.add("cooling rib", at_cage(ring(2.6, 0.14, around, made.steps(6)), z));
+  made.add("swivel knob",
+           moved(turned({{0, 0}, {0.5, 0}, {0.6, 1}, {0, 1.2}}, made.steps(20)), {0, kHeight + 2.4, -6}));
 }
 
 void add_stand(Assembler& made) {

@@ -9,7 +9,7 @@ const std::vector<TableLine>& table_1() {
   static const std::vector<TableLine> kLines = {
       {"car", car, 1.12, 29636, 40, {73, 35, 30}, {1.8, 1, 1}, 7.3, 4.2},
       {"candelabrum", candelabrum, 0.98, 11284, 87, {80, 64, 25}, {1.65, 1, 1}, 8.8, 6.5},
-      {"clock", clock_of_parts, 1.32, 55725, 267, {50, 115, 22}, {1.4, 1, 1}, 8.7, 5.8},
+      {"clock", clock_of_parts, 1.68, 55725, 267, {50, 115, 22}, {1.4, 1, 1}, 8.7, 5.8},
       {"fan", fan, 2.3, 501956, 309, {20, 57, 20}, {1, 0.65, 1}, 1.5, 0.7},
       {"phone", phone, 1.38, 29416, 22, {50, 29, 42}, {1.5, 1, 1}, 4.5, 2.6},
       {"fuel tank", tank, 1.18, 9236, 61, {40, 17, 14}, {2, 1, 1}, 0.8, 0.4},
@@ -32,20 +32,11 @@ Assembled bolted_plate(bool ribs, double detail) {
   return made.assembled();
 }
 
-Assembled ball_amid_slabs(double detail) {
-  Assembler made(detail);
-  for (int axis = 0; axis < 3; ++axis) {
-    Eigen::Vector3d size(40, 40, 40);
-    size[axis] = 2;
-    for (const double side : {0.0, 38.0}) made.add("slab", moved(box(size, made.steps(4)), side * Eigen::Vector3d::Unit(axis)));
-  }
-  made.add("ball", moved(ball({8, 8, 8}, made.steps(40)), {20, 20, 20}));
-  return made.assembled();
-}
-
 Assembled boxes() {
   Assembler made(1);
-  const auto add = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& size) { made.add("box", moved(box(size, 4), low)); };
+  const auto add = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& size) {
+    made.add("box", moved(box(size, 4), low));
+  };
   add({0, 0, 0}, {40, 6, 24});
   add({4, 6, 4}, {12, 14, 16});
   add({16, 6, 4}, {12, 8, 16});

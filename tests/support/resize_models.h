@@ -45,10 +45,9 @@ struct TableLine {
 };
 const std::vector<TableLine>& table_1();
 
-/// A plate 60 × 3 × 40 with a bolt hole of radius 3 near each corner, 40 × 20 apart; `ribs`: two along x and two across.
+/// A plate 60 × 3 × 40 with a bolt hole of radius 3 near each corner, 40 × 20 apart; `ribs`: two along x and two
+/// across.
 Assembled bolted_plate(bool ribs = false, double detail = 1);
-/// A ball between slabs at all sides.
-Assembled ball_amid_slabs(double detail = 1);
 /// Boxes aligned to the axes, touching, one upon the other.
 Assembled boxes();
 

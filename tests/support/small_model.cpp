@@ -39,7 +39,8 @@ Assembled candelabrum(double detail) {
   Assembler made(detail);
   const int around = made.steps(20);
   // A foot and a stem of turned parts, four arms to each side, candles upon them.
-  made.add("foot", moved(turned({{0, 0}, {12.5, 0}, {12.5, 1}, {9, 2.2}, {4, 3.4}, {2.4, 5}, {0, 5}}, around), {40, 0, 0}));
+  made.add("foot",
+           moved(turned({{0, 0}, {12.5, 0}, {12.5, 1}, {9, 2.2}, {4, 3.4}, {2.4, 5}, {0, 5}}, around), {40, 0, 0}));
   made.add("foot ring", moved(ring(12, 0.5, around, made.steps(8)), {40, 1.2, 0}));
   made.add("foot bead", moved(ring(4, 0.4, around, made.steps(8)), {40, 3.4, 0}));
   for (int i = 0; i < 14; ++i) {
@@ -53,8 +54,8 @@ Assembled candelabrum(double detail) {
       Path arm;
       append(arm, arc({40, top}, {side * reach, top - low}, -kPi / 2, 0, made.steps(16)));
       made.add("arm", rod(arm, 0.7, made.steps(8)));
-      made.add("arm leaf", moved(ball({1.1, 1.1, 0.6}, made.steps(10)),
-                                 {40 + side * reach * 0.72, top - (top - low) * 0.7, 0}));
+      made.add("arm leaf",
+               moved(ball({1.1, 1.1, 0.6}, made.steps(10)), {40 + side * reach * 0.72, top - (top - low) * 0.7, 0}));
       add_candle(made, {40 + side * reach, top + 1, 0});
       if (i == 3) continue;
       made.add("drop", moved(ball({0.5, 1.1, 0.5}, made.steps(10)), {40 + side * reach, top - 1.8, 0}));
@@ -110,7 +111,8 @@ Assembled phone(double detail) {
   Path cord;
   for (int k = 0; k <= made.steps(160); ++k) {
     const double part = static_cast<double>(k) / made.steps(160), turn = 2 * kPi * 11 * part;
-    cord.emplace_back(-20 - 3.5 * std::sin(kPi * part) + 0.9 * std::cos(turn), 18 - 15 * part + 0.9 * std::sin(turn), 2 - 16 * part);
+    cord.emplace_back(-20 - 3.5 * std::sin(kPi * part) + 0.9 * std::cos(turn), 18 - 15 * part + 0.9 * std::sin(turn),
+                      2 - 16 * part);
   }
   made.add("cord", rod(cord, 0.35, made.steps(10)));
   made.add("cord plug", moved(ball({1.2, 1.2, 1.6}, made.steps(20)), {-20, 3, -14}));
@@ -157,7 +159,8 @@ Assembled camera(double detail) {
   made.add("timer arm", moved(slab({1.6, 6, 0.8}, 0.2), {9, 17.5, 23}));
   forward("lamp", disc(1.5, 21.5, 22.6), 51, 22);
   made.add("grip", moved(ball({4, 11, 4}, made.steps(16)), {53, 13, 22}));
-  for (const double x : {10.0, 50.0}) made.add("screw", moved(about(2, turned(disc(1, 21.8, 22.5), made.steps(16))), {x, 5, 0}));
+  for (const double x : {10.0, 50.0})
+    made.add("screw", moved(about(2, turned(disc(1, 21.8, 22.5), made.steps(16))), {x, 5, 0}));
   made.add("eyepiece", moved(about(2, ring(2.6, 0.6, made.steps(24), made.steps(6))), {30, 32.5, 4}));
   upward("tripod bush", disc(3, -0.6, 1), 30, 11);
   made.add("back door", moved(slab({44, 20, 1}, 0.3), {30, 14, 0}));

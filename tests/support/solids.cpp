@@ -193,7 +193,8 @@ Mesh pulled(const Outline& outline, double depth, int steps) {
   Faces faces;
   const int around = static_cast<int>(outline.size());
   for (int k = 0; k <= steps; ++k) {
-    for (const Vector2d& point : outline) faces.add({point[0], point[1], depth * (static_cast<double>(k) / steps - 0.5)});
+    for (const Vector2d& point : outline)
+      faces.add({point[0], point[1], depth * (static_cast<double>(k) / steps - 0.5)});
   }
   for (int k = 0; k < steps; ++k) faces.band(k * around, (k + 1) * around, around);
   for (const Eigen::Vector3i& t : triangles_of(outline)) {
@@ -206,14 +207,15 @@ Mesh pulled(const Outline& outline, double depth, int steps) {
 Mesh slab(const Vector3d& size, double bevel) {
   const Vector3d half = size / 2, inner = half.array() - bevel;
   const auto outline = [&](double x, double z) {
-    const Outline corners = {{x, z - bevel}, {x, bevel - z}, {x - bevel, -z}, {bevel - x, -z},
-                             {-x, bevel - z}, {-x, z - bevel}, {bevel - x, z}, {x - bevel, z}};
+    const Outline corners = {{x, z - bevel},  {x, bevel - z},  {x - bevel, -z}, {bevel - x, -z},
+                             {-x, bevel - z}, {-x, z - bevel}, {bevel - x, z},  {x - bevel, z}};
     return corners;
   };
   std::vector<Path> rings;
   for (const auto& [y, inset] : {std::pair{-half[1], bevel}, {-inner[1], 0.0}, {inner[1], 0.0}, {half[1], bevel}}) {
     Path points;
-    for (const Vector2d& corner : outline(half[0] - inset, half[2] - inset)) points.emplace_back(corner[0], y, corner[1]);
+    for (const Vector2d& corner : outline(half[0] - inset, half[2] - inset))
+      points.emplace_back(corner[0], y, corner[1]);
     rings.push_back(std::move(points));
   }
   return loft(rings);

@@ -21,8 +21,8 @@ Outline rounded_rectangle(const Eigen::Vector2d& size, double radius, int steps)
 /// Straight pieces between the points of an outline cut in `steps`.
 Outline cut(const Outline& outline, int steps);
 
-/// (radius, height) turned about the y axis. Both ends of the profile have the radius 0, or neither: then the last point
-/// is joined to the first.
+/// (radius, height) turned about the y axis. Both ends of the profile have the radius 0, or neither: then the last
+/// point is joined to the first.
 Mesh turned(const Outline& profile, int around);
 /// A round rod along a path; flat ends, or none where the path is `closed`.
 Mesh rod(const Path& path, double radius, int around, bool closed = false);
@@ -36,8 +36,8 @@ Mesh slab(const Eigen::Vector3d& size, double bevel);
 Mesh ball(const Eigen::Vector3d& radii, int around);
 /// A ring about the y axis through the origin.
 Mesh ring(double radius, double thickness, int around, int across);
-/// A plate about the origin of `columns` × `rows` squares of a side, in the xz plane. Those that `holed` names (x first)
-/// have a round hole in the middle, `around` points (a multiple of 4) each.
+/// A plate about the origin of `columns` × `rows` squares of a side, in the xz plane. Those that `holed` names (x
+/// first) have a round hole in the middle, `around` points (a multiple of 4) each.
 Mesh plate(int columns, int rows, double side, double thickness, const std::vector<Eigen::Vector2i>& holed,
            double hole_radius, int around);
 

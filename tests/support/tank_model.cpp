@@ -39,12 +39,14 @@ void add_feet(Assembler& made) {
   for (const double x : {9.0, 31.0}) {
     // A saddle under the shell, whose upper side is round.
     Outline outline = {{-5.4, 1.6}, {5.4, 1.6}};
-    for (const Vector2d& p : arc({0, kAxis}, {6.3, 6.3}, -0.18 * kPi, -0.82 * kPi, made.steps(14))) outline.push_back(p);
+    for (const Vector2d& p : arc({0, kAxis}, {6.3, 6.3}, -0.18 * kPi, -0.82 * kPi, made.steps(14)))
+      outline.push_back(p);
     made.add("saddle", moved(quarter_turned(1, pulled(outline, 2)), {x, 0, 0}));
     for (const double z : {-4.4, 4.4}) {
       made.add("leg", moved(turned({{0, 0.4}, {0.7, 0.4}, {0.7, 1.7}, {0, 1.7}}, made.steps(16)), {x, 0, z}));
       made.add("foot", moved(slab({3, 0.5, 3}, 0.1), {x, 0.25, z}));
-      made.add("foot bolt", moved(turned({{0, 0.4}, {0.35, 0.4}, {0.35, 0.8}, {0, 0.8}}, made.steps(12)), {x + 1.1, 0, z}));
+      made.add("foot bolt",
+               moved(turned({{0, 0.4}, {0.35, 0.4}, {0.35, 0.8}, {0, 0.8}}, made.steps(12)), {x + 1.1, 0, z}));
     }
   }
 }
@@ -56,7 +58,9 @@ void add_hatch(Assembler& made, double x, double radius, int bolts) {
   const auto add = [&](const std::string& name, const Outline& profile) {
     made.add(name, moved(turned(profile, around), {x, 0, 0}));
   };
-  const auto disc = [&](double r, double low, double high) { return Outline{{0, low}, {r, low}, {r, high}, {0, high}}; };
+  const auto disc = [&](double r, double low, double high) {
+    return Outline{{0, low}, {r, low}, {r, high}, {0, high}};
+  };
   add("hatch neck", disc(radius, base, top));
   add("hatch flange", disc(radius + 0.7, top, top + 0.35));
   Outline lid = {{0, top + 0.35}, {radius + 0.7, top + 0.35}, {radius + 0.7, top + 0.7}};
@@ -77,11 +81,14 @@ void add_fittings(Assembler& made) {
   made.add("pipe flange", moved(turned({{0, 1.3}, {0.9, 1.3}, {0.9, 1.7}, {0, 1.7}}, made.steps(16)), {38.6, 0, 0}));
   made.add("valve", moved(about(0, turned({{0, 0}, {0.2, 0}, {0.2, 1}, {0, 1}}, made.steps(10))), {38.9, 2.4, 0}));
   made.add("hand wheel", moved(about(0, ring(0.9, 0.12, made.steps(20), made.steps(6))), {39.8, 2.4, 0}));
-  made.add("gauge stem", moved(turned({{0, 13.8}, {0.25, 13.8}, {0.25, 15.3}, {0, 15.3}}, made.steps(10)), {21.5, 0, 0}));
-  made.add("gauge", moved(about(2, turned({{0, -0.3}, {0.9, -0.3}, {0.9, 0.3}, {0, 0.3}}, made.steps(20))), {21.5, 15.9, 0}));
+  made.add("gauge stem",
+           moved(turned({{0, 13.8}, {0.25, 13.8}, {0.25, 15.3}, {0, 15.3}}, made.steps(10)), {21.5, 0, 0}));
+  made.add("gauge",
+           moved(about(2, turned({{0, -0.3}, {0.9, -0.3}, {0.9, 0.3}, {0, 0.3}}, made.steps(20))), {21.5, 15.9, 0}));
   // A glass beside the shell tells the level.
   made.add("level glass", rod({{30, 4.5, 6.3}, {30, 11.5, 6.3}}, 0.25, made.steps(10)));
-  for (const double y : {4.5, 11.5}) made.add("level joint", moved(ball({0.5, 0.5, 1.4}, made.steps(10)), {30, y, 5.6}));
+  for (const double y : {4.5, 11.5})
+    made.add("level joint", moved(ball({0.5, 0.5, 1.4}, made.steps(10)), {30, y, 5.6}));
   for (const double x : {9.0, 31.0}) {
     made.add("eye", moved(about(2, ring(0.8, 0.22, made.steps(16), made.steps(6))), {x, kAxis + kRadius + 1.1, 0}));
   }
