@@ -101,7 +101,8 @@ ResizeResult solve_prepared(ResizePlan& plan, const ResizeTarget& target, Stages
 Resize::Resize(const PositionsRef& positions, const TrianglesRef& triangles, const ResizeOptions& options) {
   check(positions, triangles);
   check_options(positions, options);
-  plan_.reset(new ResizePlan{options, std::make_shared<Mesh>(Mesh{positions, triangles}), shape_of(positions, options)});
+  plan_.reset(
+      new ResizePlan{options, std::make_shared<Mesh>(Mesh{positions, triangles}), shape_of(positions, options)});
   if (!plan_->options.backend) plan_->options.backend = cpu_backend();
 }
 Resize::~Resize() = default;
@@ -130,8 +131,9 @@ void Resize::protect(const Protection& protection) {
 void Resize::set_map(const CellMap& map) {
   check("Resize", plan_->shape, map);
   prepare();
-  swage::reset_map(*plan_);
-  plan_->map = map;
+  plan_->map.phi = map.phi;
+  plan_->said = map.theta;
+  count_map(*plan_);
 }
 
 void Resize::reset_map() {
