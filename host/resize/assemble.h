@@ -11,7 +11,8 @@
 namespace swage {
 
 constexpr double kLeastVulnerability = 1e-3;
-/// What shear counts beside scales. The paper's 1 leaves wheels, dials and hatches twice to four times as far from round.
+/// What shear counts beside scales. The paper's 1 leaves wheels, dials and hatches twice to four times as far from
+/// round.
 constexpr double kOrthogonality = 0.05;
 
 struct AssemblyOptions {
