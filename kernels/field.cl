@@ -31,8 +31,8 @@ enum {
 };
 
 /// Where a worker's slot lies, in lanes: of workers side by side one after the other.
-INLINE size_t slot_place(int slot, int slots, int worker) {
-  return ((size_t)(worker / WORKERS) * slots + slot) * WORKERS + worker % WORKERS;
+INLINE long slot_place(int slot, int slots, int worker) {
+  return ((long)(worker / WORKERS) * slots + slot) * WORKERS + worker % WORKERS;
 }
 #define SLOT(i) VLOAD(slot_place(i, slots, worker), values)
 #define SLOPE(i) VLOAD(slot_place(i, slots, worker), slopes)
@@ -84,7 +84,7 @@ INLINE real value_of(int op, real a, real b) {
 
 /// Adds to the slopes of a and b those by way of an instruction.
 #define PASS_ON(to, slope) VSTORE(VLOAD(to, slopes) + (slope), to, slopes)
-INLINE void pass_on(int op, size_t a_place, size_t b_place, real value, real slope, global const scalar* values,
+INLINE void pass_on(int op, long a_place, long b_place, real value, real slope, global const scalar* values,
                     global scalar* slopes) {
   const real a = VLOAD(a_place, values), b = VLOAD(b_place, values), none = ALL(0);
   switch (op) {
@@ -171,7 +171,7 @@ kernel void run_tape(const int items, const int count, const int uniforms, const
     for (int s = 0; s < slots; ++s) VSTORE(ALL(0), slot_place(s, slots, worker), slopes);
     VSTORE(ALL(1), slot_place(root, slots, worker), slopes);
     for (int s = length - 1; s >= 0; --s) {
-      const size_t made = slot_place(uniforms + 3 + s, slots, worker);
+      const long made = slot_place(uniforms + 3 + s, slots, worker);
       pass_on(code[3 * s], slot_place(code[3 * s + 1], slots, worker), slot_place(code[3 * s + 2], slots, worker),
               VLOAD(made, values), VLOAD(made, slopes), values, slopes);
     }

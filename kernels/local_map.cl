@@ -60,6 +60,7 @@ kernel void fit_maps(const int items, const int count, const host_scalar per_len
                      global const scalar* rest_normals, const int smooths, global const int* neighbour_offsets,
                      global const int* neighbours, global const scalar* smoothing, global const host_scalar* last,
                      global const host_scalar* positions, global const host_scalar* normals, global host_scalar* maps) {
+  (void)with_normals, (void)weighted_normals;  // As all fits of pairs have them.
   const int i = get_global_id(0);
   if (i >= items) return;
   Mat3 image = pair_sums(i, count, offsets, pairs, edges, positions, per_length);
