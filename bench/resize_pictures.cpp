@@ -1,9 +1,8 @@
-// Models of our own making, resized: at rest, by plain scaling, and as resize() does it.
+// Models of our own making at rest, plainly scaled and resized, as pictures.
 //
-//   resize_pictures FOLDER [NAME...]   writes there resized.png, of those named or of all, and of each NAME.grid.png:
-//   its
-//                                      protective grid, before and after, coloured by vulnerability along the axis.
+//   resize_pictures FOLDER [NAME...]   writes there resized.png, of those named or of all.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -18,90 +17,85 @@ namespace swage::bench {
 namespace {
 
 struct Exhibit {
-  std::string name;
-  test::Assembled (*make)(double detail);
-  double detail;
-  Eigen::RowVector3d factors;
+  std::string name, how;
+  test::Assembled (*make)();
+  ResizeTarget target;
   Eigen::Vector3d eye;
-  std::vector<std::string> protect = {};  ///< Parts.
+  std::vector<std::string> protect = {}, release = {};  ///< Parts; released along y.
 };
+
+template <test::Assembled (*kMake)(double)>
+test::Assembled fine() {
+  return kMake(1.5);
+}
+
+ResizeTarget by(double x, double y, ResizeKeep keep = ResizeKeep::shape) {
+  ResizeTarget target;
+  target.factors << x, y, 1;
+  target.keep = keep;
+  return target;
+}
 
 const std::vector<Exhibit>& exhibits() {
   static const std::vector<Exhibit> kExhibits = {
-      {"clock", test::clock_of_parts, 1.5, {1.8, 1, 1}, {0.35, 0.25, 1}},
-      {"fan", test::fan, 1, {1, 1.5, 1}, {0.6, 0.2, 1}},
-      {"car", test::car, 1.5, {2, 1, 1}, {-0.5, 0.45, 1}},
-      {"fuel tank", test::tank, 1.5, {2, 1, 1}, {0.4, 0.5, 1}},
-      {"lantern", test::lantern, 1.5, {1, 1.6, 1}, {0.3, 0.25, 1}},
-      {"lantern, its rims protected", test::lantern, 1.5, {1, 1.6, 1}, {0.3, 0.25, 1}, {"upper rim", "lower rim"}},
+      {"clock", "1.8 times as wide", fine<test::clock_of_parts>, by(1.8, 1), {0.35, 0.25, 1}},
+      {"fan", "1.5 times as high", fine<test::fan>, by(1, 1.5), {0.6, 0.2, 1}},
+      {"car", "twice as long", fine<test::car>, by(2, 1), {-0.5, 0.45, 1}},
+      {"fuel tank", "twice as long", fine<test::tank>, by(2, 1), {0.4, 0.5, 1}},
+      {"plate",
+       "twice as long, sizes kept",
+       [] { return test::bolted_plate(true); },
+       by(2, 1, ResizeKeep::size),
+       {0.3, 0.8, 0.7}},
+      {"lantern", "1.6 times as high", fine<test::lantern>, by(1, 1.6), {0.3, 0.25, 1}},
+      {"lantern",
+       "the same; the user protects its rims and releases its paper",
+       fine<test::lantern>,
+       by(1, 1.6),
+       {0.3, 0.25, 1},
+       {"upper rim", "lower rim"},
+       {"paper"}},
   };
   return kExhibits;
 }
 
-std::string text_of(const Eigen::RowVector3d& factors) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%g × %g × %g", factors[0], factors[1], factors[2]);
-  return text;
-}
-
-std::vector<int> triangles_of(const test::Assembled& model, const std::vector<std::string>& parts) {
+std::vector<int> triangles_of(const test::Assembled& model, const std::string& name) {
   std::vector<int> triangles;
-  for (const std::string& name : parts) {
-    for (const test::Part& part : model.named(name)) {
-      for (int t = 0; t < model.mesh.triangles.rows(); ++t) {
-        const int v = model.mesh.triangles(t, 0);
-        if (v >= part.first && v < part.first + part.count) triangles.push_back(t);
-      }
+  for (const test::Part& part : model.named(name)) {
+    for (int t = 0; t < model.mesh.triangles.rows(); ++t) {
+      const int v = model.mesh.triangles(t, 0);
+      if (v >= part.first && v < part.first + part.count) triangles.push_back(t);
     }
   }
   return triangles;
 }
 
-Panel grid_panel(const GridShape& shape, const CellMap& map, const AxisValues& vertices, int axis) {
-  Panel panel;
-  std::vector<int> cells;
-  panel.mesh = grid_surface(shape, map, vertices, &cells);
-  panel.face_values.resize(static_cast<Eigen::Index>(cells.size()));
-  for (size_t t = 0; t < cells.size(); ++t) panel.face_values[static_cast<Eigen::Index>(t)] = map.theta(cells[t], axis);
-  return panel;
-}
-
-void write(const std::filesystem::path& path, const Image& image) {
-  write_png(path, image);
-  std::printf("%s\n", path.string().c_str());
-}
-
-/// Rest, plain scaling, ours.
-SheetRow row_of(const Exhibit& exhibit, const std::filesystem::path& folder) {
-  const test::Assembled model = exhibit.make(exhibit.detail);
+SheetRow row_of(const Exhibit& exhibit) {
+  const test::Assembled model = exhibit.make();
   const Mesh& mesh = model.mesh;
   SheetRow row;
-  row.title = exhibit.name + ", " + text_of(exhibit.factors);
+  row.title = exhibit.name + ", " + exhibit.how;
   row.view = View{exhibit.eye, {0, 1, 0}};
   const auto add = [&](const Positions& positions) {
-    // About their middles, as panels share a place of space.
+    // About their middles: panels share a place of space.
     const Eigen::RowVector3d middle = (positions.colwise().minCoeff() + positions.colwise().maxCoeff()) / 2;
     row.panels.push_back({{positions.rowwise() - middle, mesh.triangles}, "", {}, {}, ""});
   };
   add(mesh.positions);
-  add(mesh.positions * exhibit.factors.asDiagonal());
+  add(mesh.positions * exhibit.target.factors.asDiagonal());
   Resize plan(mesh.positions, mesh.triangles);
-  if (!exhibit.protect.empty()) {
-    Protection protection;
-    protection.triangles = triangles_of(model, exhibit.protect);
-    plan.protect(protection);
-  }
-  const ResizeResult result = plan.solve({exhibit.factors});
-  add(result.positions);
-  int axis = 0;
-  (exhibit.factors.array() - 1).abs().maxCoeff(&axis);
-  RenderOptions options;
-  options.view = row.view;
-  options.heat_map = {0, 1, "vulnerability"};
-  write(folder / (exhibit.name + ".grid.png"),
-        render({grid_panel(plan.shape(), plan.map(), rest_vertices(plan.shape()), axis),
-                grid_panel(plan.shape(), plan.map(), result.grid, axis)},
-               options));
+  const auto lay = [&](const std::vector<std::string>& parts, double value, const std::array<bool, 3>& axes) {
+    for (const std::string& name : parts) {
+      Protection protection;
+      protection.triangles = triangles_of(model, name);
+      protection.value = value;
+      protection.axes = axes;
+      plan.protect(protection);
+    }
+  };
+  lay(exhibit.release, 0, {false, true, false});
+  lay(exhibit.protect, 1, {true, true, true});
+  add(plan.solve(exhibit.target).positions);
   return row;
 }
 
@@ -110,13 +104,15 @@ void run(const std::filesystem::path& folder, const std::vector<std::string>& na
   std::vector<SheetRow> rows;
   for (const Exhibit& exhibit : exhibits()) {
     if (names.empty() || std::find(names.begin(), names.end(), exhibit.name) != names.end()) {
-      rows.push_back(row_of(exhibit, folder));
+      rows.push_back(row_of(exhibit));
     }
   }
   RenderOptions options;
-  options.width = 2600;
-  options.height = 620;
-  write(folder / "resized.png", contact_sheet(rows, {"rest", "plain scaling", "resize"}, options));
+  options.width = 1200;
+  options.height = 256;
+  const std::filesystem::path path = folder / "resized.png";
+  write_png(path, contact_sheet(rows, {"rest", "plain scaling", "resize"}, options));
+  std::printf("%s\n", path.string().c_str());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -49,7 +50,6 @@ Mesh body(const Assembler& made) {
     const int steps = made.steps(std::clamp(static_cast<int>(to.x - from.x), 3, 8));
     for (int k = 1; k <= steps; ++k) {
       const double part = static_cast<double>(k) / steps;
-      // The ends are drawn as quarters of ellipses, else they would have a dent where two stations meet.
       add({from.x + (to.x - from.x) * part, smooth(from.bottom, to.bottom, part), smooth(from.top, to.top, part),
            smooth(from.half_width, to.half_width, part), smooth(from.corner, to.corner, part)});
     }

@@ -16,9 +16,9 @@ constexpr double kPi = std::numbers::pi;
 
 Outline disc(double radius, double low, double high) { return {{0, low}, {radius, low}, {radius, high}, {0, high}}; }
 
-/// Points of a curve between angles of an ellipse in the plane of x and y.
-void append(Path& path, const Outline& outline, double z = 0) {
-  for (const Vector2d& p : outline) path.emplace_back(p[0], p[1], z);
+/// Points of the plane of x and y.
+void append(Path& path, const Outline& outline) {
+  for (const Vector2d& p : outline) path.emplace_back(p[0], p[1], 0);
 }
 
 /// Pan, cup, candle and flame, with a bead below.

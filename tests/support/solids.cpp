@@ -1,9 +1,7 @@
 #include "solids.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
