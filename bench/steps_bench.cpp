@@ -18,6 +18,7 @@
 #include "measures.h"
 #include "plan.h"
 #include "procrustes.h"
+#include "sides.h"
 #include "step_inputs.h"
 #include "swage/curvature.h"
 #include "swage/error.h"
@@ -241,6 +242,30 @@ void add_closest_normal() {
   });
 }
 
+/// An element a triangle: its corners four times, its sides' rings, half a vertex five times, its slippage, and a cell
+/// or two; half a vertex more to carry.
+void add_carry() {
+  add_step("carry", [](const Backend& backend, int elements, double) {
+    const auto mesh = std::make_shared<Mesh>(mesh_of(elements));
+    const Lists corners = corners_of_vertices(mesh->triangles, static_cast<int>(mesh->positions.rows()));
+    const std::shared_ptr<CarryStep> step = backend.carry({mesh, next_sides(mesh->triangles, corners)});
+    const Eigen::RowVector3d low = mesh->positions.colwise().minCoeff(), high = mesh->positions.colwise().maxCoeff();
+    const GridShape shape = {{{60, 60, 18}}, low, high - low};
+    const auto means = std::make_shared<AxisValues>();
+    const auto counts = std::make_shared<Eigen::VectorXi>(), cells = std::make_shared<Eigen::VectorXi>();
+    const auto carried = std::make_shared<Positions>();
+    const AxisValues grid = 1.1 * rest_vertices(shape);
+    return Work{[=] {
+                  const Slice all = {0, mesh->triangles.rows()};
+                  step->slippage(all, *means);
+                  step->count_cells(shape, all, *counts);
+                  step->list_cells(shape, all, *counts, *cells);
+                  step->carry(shape, grid, *carried);
+                },
+                (4 * 3 + 3 + 2 + 1.5) * kIndex + (2.5 * 3 + 3 + 1.5) * kHost};
+  });
+}
+
 /// The closest rotations alone, of matrices that lie where they are needed.
 void add_closest_rotation_by_cpu() {
   for (const int elements : kSizes) {
@@ -316,6 +341,7 @@ void register_all() {
   add_curvature();
   add_normal_fit();
   add_closest_normal();
+  add_carry();
   add_closest_rotation_by_cpu();
 #ifdef SWAGE_BENCH_OPENCL
   add_closest_rotation_by_device();

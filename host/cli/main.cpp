@@ -23,8 +23,9 @@ int run(int argc, char** argv) {
   CLI::App program{"Edits the shape of triangle meshes the way a person would expect.", "swage"};
   CommonOptions common;
   const std::vector<Command> commands = {reshape_command(program, common), stylize_command(program, common),
-                                         info_command(program, common),    compare_command(program, common),
-                                         demo_command(program, common),    devices_command(program, common)};
+                                         resize_command(program, common),  info_command(program, common),
+                                         compare_command(program, common), demo_command(program, common),
+                                         devices_command(program, common)};
   add_common_options(program, common);
   for (const Command& command : commands) add_common_options(*command.app, common);
   try {

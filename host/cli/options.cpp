@@ -43,7 +43,7 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   app.add_option(
          "--backend", common.backend,
          "Where the local steps run: auto, cpu or opencl (SWAGE_BACKEND, else auto: OpenCL where there is a GPU, "
-         "for stylize any device, and the mesh is large)")
+         "for stylize and resize any device, and the mesh is large)")
       ->group(group)
       ->type_name("NAME");
   app.add_option("--device", common.device,
@@ -103,9 +103,15 @@ void check_can_be_written(const std::filesystem::path& path, const char* option)
 }
 
 void check_different(const std::vector<Output>& outputs) {
+  // Where a folder cannot be looked at, as it is written.
+  const auto place_of = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(path, ignored);
+    return place.empty() ? path : place;
+  };
   for (size_t i = 0; i < outputs.size(); ++i) {
     for (size_t j = i + 1; j < outputs.size(); ++j) {
-      if (outputs[i].path.empty() || outputs[i].path != outputs[j].path) continue;
+      if (outputs[i].path.empty() || place_of(outputs[i].path) != place_of(outputs[j].path)) continue;
       throw WrongUsage(fmt::format("{} and {} both name {}: give them different files", outputs[i].option,
                                    outputs[j].option, outputs[i].path));
     }

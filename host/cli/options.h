@@ -29,6 +29,7 @@ struct Command {
 
 Command reshape_command(CLI::App& program, const CommonOptions& common);
 Command stylize_command(CLI::App& program, const CommonOptions& common);
+Command resize_command(CLI::App& program, const CommonOptions& common);
 Command info_command(CLI::App& program, const CommonOptions& common);
 Command compare_command(CLI::App& program, const CommonOptions& common);
 Command demo_command(CLI::App& program, const CommonOptions& common);
@@ -53,7 +54,7 @@ void check_can_be_written(const std::filesystem::path& path, const char* option)
 /// An option that names a file to write, which is empty where it is not given.
 struct Output {
   const char* option;
-  const std::string& path;
+  std::string path;
 };
 
 /// Throws WrongUsage where two name one file.

@@ -37,8 +37,9 @@ CLI::Option* add_picture_option(CLI::App& app, PictureOptions& options, const st
   return app.add_option("--picture", options.path, help)->group("Picture")->type_name("FILE.png");
 }
 
-std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options) {
+std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options, const char* size_option) {
   const std::string group = "Picture";
+  options.size_option = size_option;
   CLI::Option* view = app.add_option("--view", options.view, "Direction towards the eye (one that shows most)")
                           ->type_name("X,Y,Z")
                           ->group(group);
@@ -46,7 +47,7 @@ std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& option
                         ->check(CLI::IsMember({"x", "y", "z"}))
                         ->type_name("AXIS")
                         ->group(group);
-  return {view, up, app.add_option("--size", options.size, "Pixels (1600x900)")->type_name("WxH")->group(group)};
+  return {view, up, app.add_option(size_option, options.size, "Pixels (1600x900)")->type_name("WxH")->group(group)};
 }
 
 void check(const PictureOptions& options, const char* option) {
@@ -66,8 +67,8 @@ RenderOptions render_options_of(const PictureOptions& options) {
   const std::vector<double> size = numbers_in(options.size, 'x');
   const auto is_side = [](double side) { return side >= 64 && side <= 16384 && side == std::floor(side); };
   if (size.size() != 2 || !is_side(size[0]) || !is_side(size[1])) {
-    throw WrongUsage(
-        fmt::format("--size {}: give width x height in pixels, 64 to 16384 each, such as 1600x900", options.size));
+    throw WrongUsage(fmt::format("{} {}: give width x height in pixels, 64 to 16384 each, such as 1600x900",
+                                 options.size_option, options.size));
   }
   render.width = static_cast<int>(size[0]);
   render.height = static_cast<int>(size[1]);
@@ -83,6 +84,14 @@ RenderOptions render_options_of(const PictureOptions& options) {
 
 Image drawn(const std::vector<Panel>& panels, const RenderOptions& options, const CommonOptions& common) {
   Image image = with_progress(common, [&](const ProgressFn& progress) { return render(panels, options, progress); });
+  stop_if_interrupted();
+  return image;
+}
+
+Image drawn(const std::vector<SheetRow>& rows, const std::vector<std::string>& columns, const RenderOptions& options,
+            const CommonOptions& common) {
+  Image image = with_progress(
+      common, [&](const ProgressFn& progress) { return contact_sheet(rows, columns, options, progress); });
   stop_if_interrupted();
   return image;
 }

@@ -15,13 +15,14 @@ struct PictureOptions {
   std::string view;  ///< X,Y,Z; empty for the automatic one.
   std::string up = "y";
   std::string size = "1600x900";
+  const char* size_option = "--size";  ///< What the option for it is called.
 };
 
 /// --picture.
 CLI::Option* add_picture_option(CLI::App& app, PictureOptions& options, const std::string& help);
 
-/// --view, --up and --size.
-std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options);
+/// --view, --up and what sets the size.
+std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options, const char* size_option = "--size");
 
 /// Throws WrongUsage where an option is not understood or nothing can be written to the path, which the `option` names,
 /// and Unavailable where this build makes no pictures.
@@ -35,5 +36,9 @@ double rounded_up(double value);
 
 /// With a progress bar. Throws Interrupted.
 Image drawn(const std::vector<Panel>& panels, const RenderOptions& options, const CommonOptions& common);
+
+/// A contact sheet, likewise.
+Image drawn(const std::vector<SheetRow>& rows, const std::vector<std::string>& columns, const RenderOptions& options,
+            const CommonOptions& common);
 
 }  // namespace swage::cli

@@ -15,6 +15,10 @@ namespace {
 
 using Mask = std::vector<bool>;
 using Choose = std::function<Mask(const MeshFile&)>;
+using Eigen::AlignedBox3d;
+using Region = std::function<AlignedBox3d(const MeshFile&)>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void refuse_part(std::string_view part, const std::string& why) {
   throw InvalidInput("Selection: " + in_quotes(part) + ": " + why);
@@ -54,9 +58,11 @@ double parse_finite(std::string_view part, std::string_view text) {
 
 Mask none_of(const MeshFile& file) { return Mask(static_cast<size_t>(file.mesh.positions.rows()), false); }
 
-Mask mask_where(const MeshFile& file, const std::function<bool(const Eigen::RowVector3d&)>& is_in) {
+Mask mask_within(const MeshFile& file, const AlignedBox3d& box) {
   Mask mask = none_of(file);
-  for (size_t v = 0; v < mask.size(); ++v) mask[v] = is_in(file.mesh.positions.row(static_cast<Eigen::Index>(v)));
+  for (size_t v = 0; v < mask.size(); ++v) {
+    mask[v] = box.contains(file.mesh.positions.row(static_cast<Eigen::Index>(v)).transpose());
+  }
   return mask;
 }
 
@@ -110,27 +116,29 @@ Choose parse_file(std::string_view part) {
   return [path](const MeshFile& file) { return read_vertices(path, file); };
 }
 
-Choose parse_box(std::string_view part, std::string_view numbers) {
+Region parse_box(std::string_view part, std::string_view numbers) {
   const std::vector<std::string_view> items = split(numbers, ',');
   if (items.size() != 6) refuse_part(part, "a box takes six numbers: box:x0,y0,z0,x1,y1,z1");
-  Eigen::RowVector3d one, other;
-  for (size_t k = 0; k < 6; ++k) (k < 3 ? one : other)[static_cast<int>(k % 3)] = parse_finite(part, items[k]);
-  const Eigen::RowVector3d low = one.cwiseMin(other), high = one.cwiseMax(other);
-  return [low, high](const MeshFile& file) {
-    return mask_where(file, [&](const Eigen::RowVector3d& p) {
-      return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-    });
-  };
+  AlignedBox3d box;
+  for (size_t corner = 0; corner < 6; corner += 3) {
+    Eigen::Vector3d point;
+    for (size_t k = 0; k < 3; ++k) point[static_cast<int>(k)] = parse_finite(part, items[corner + k]);
+    box.extend(point);
+  }
+  return [box](const MeshFile&) { return box; };
 }
 
-bool compare(double x, std::string_view relation, double bound) {
-  if (relation == "<") return x < bound;
-  if (relation == "<=") return x <= bound;
-  if (relation == ">") return x > bound;
-  return x >= bound;
+/// Without its bound where the relation excludes it: up to the next number before, or from the next after.
+AlignedBox3d half_space(int axis, std::string_view relation, double bound) {
+  AlignedBox3d box(Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity));
+  if (relation == "<") box.max()[axis] = std::nextafter(bound, -kInfinity);
+  if (relation == "<=") box.max()[axis] = bound;
+  if (relation == ">") box.min()[axis] = std::nextafter(bound, kInfinity);
+  if (relation == ">=") box.min()[axis] = bound;
+  return box;
 }
 
-Choose parse_half_space(std::string_view part) {
+Region parse_half_space(std::string_view part) {
   const int axis = part[0] - 'x';
   std::string_view rest = trimmed(part.substr(1));
   const size_t length = rest.size() > 1 && rest[1] == '=' ? 2 : 1;
@@ -146,7 +154,7 @@ Choose parse_half_space(std::string_view part) {
     const auto along = file.mesh.positions.col(axis);
     // At 100 % lerp gives the upper end exactly.
     const double bound = is_percent ? std::lerp(along.minCoeff(), along.maxCoeff(), number / 100) : number;
-    return mask_where(file, [&](const Eigen::RowVector3d& p) { return compare(p[axis], relation, bound); });
+    return half_space(axis, relation, bound);
   };
 }
 
@@ -180,29 +188,36 @@ Choose parse_group(std::string_view part, std::string_view name) {
   };
 }
 
-Choose parse_part(std::string_view part) {
+/// One of these says what is selected.
+struct Parsed {
+  Choose choose;
+  Region region;
+};
+
+Parsed parse_part(std::string_view part) {
   auto after = [&](std::string_view key) -> std::optional<std::string_view> {
     if (!part.starts_with(key)) return std::nullopt;
     return trimmed(part.substr(key.size()));
   };
   if (part.empty()) refuse_part(part, "nothing stands here; write such as 12,40-52 or x<1.2");
-  if (part[0] == '@') return parse_file(part);
-  if (const auto numbers = after("box:")) return parse_box(part, *numbers);
-  if (const auto number = after("component:")) return parse_component(part, *number);
-  if (const auto name = after("group:")) return parse_group(part, *name);
-  if (part[0] >= 'x' && part[0] <= 'z') return parse_half_space(part);
-  if (part[0] >= '0' && part[0] <= '9') return parse_vertices(part);
+  if (part[0] == '@') return {parse_file(part), {}};
+  if (const auto numbers = after("box:")) return {{}, parse_box(part, *numbers)};
+  if (const auto number = after("component:")) return {parse_component(part, *number), {}};
+  if (const auto name = after("group:")) return {parse_group(part, *name), {}};
+  if (part[0] >= 'x' && part[0] <= 'z') return {{}, parse_half_space(part)};
+  if (part[0] >= '0' && part[0] <= '9') return {parse_vertices(part), {}};
   refuse_part(part, "not understood; write 12,40-52, @file, box:..., x<1.2, component:N or group:NAME, joined by &");
 }
 
 }  // namespace
 
-struct Selection::Term {
-  Choose choose;
+struct Selection::Term : Parsed {
+  Mask mask(const MeshFile& file) const { return region ? mask_within(file, region(file)) : choose(file); }
 };
 
 Selection::Selection(std::string_view text) : text_(text) {
-  for (const std::string_view part : split(text, '&')) terms_.push_back(std::make_unique<Term>(Term{parse_part(part)}));
+  for (const std::string_view part : split(text, '&'))
+    terms_.push_back(std::make_unique<Term>(Term{{parse_part(part)}}));
 }
 Selection::~Selection() = default;
 Selection::Selection(Selection&&) noexcept = default;
@@ -212,7 +227,7 @@ std::vector<int> Selection::vertices(const MeshFile& file) const {
   check(file.mesh.positions, file.mesh.triangles);
   Mask chosen(static_cast<size_t>(file.mesh.positions.rows()), true);
   for (const auto& term : terms_) {
-    const Mask mask = term->choose(file);
+    const Mask mask = term->mask(file);
     for (size_t v = 0; v < chosen.size(); ++v) chosen[v] = chosen[v] && mask[v];
   }
   std::vector<int> vertices;
@@ -221,6 +236,18 @@ std::vector<int> Selection::vertices(const MeshFile& file) const {
   }
   if (vertices.empty()) throw InvalidInput("Selection: " + in_quotes(text_) + " selects no vertex of the mesh");
   return vertices;
+}
+
+std::optional<AlignedBox3d> Selection::region(const MeshFile& file) const {
+  check(file.mesh.positions, file.mesh.triangles);
+  AlignedBox3d common(file.mesh.positions.colwise().minCoeff().transpose(),
+                      file.mesh.positions.colwise().maxCoeff().transpose());
+  for (const auto& term : terms_) {
+    if (!term->region) return std::nullopt;
+    common = common.intersection(term->region(file));
+  }
+  if (common.isEmpty()) throw InvalidInput("Selection: " + in_quotes(text_) + " is outside of the mesh's box");
+  return common;
 }
 
 }  // namespace swage

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <numeric>
 #include <utility>
+
+#include "threads.h"
 
 namespace swage {
 
@@ -83,6 +86,35 @@ Lists triangles_of_vertices(const Triangles& triangles, int vertex_count) {
     for (int k = 0; k < 3; ++k) pairs.emplace_back(triangles(t, k), t);
   }
   return lists_from(vertex_count, pairs);
+}
+
+Lists corners_of_vertices(const Triangles& triangles, int vertex_count) {
+  Lists corners;
+  corners.offsets.assign(static_cast<size_t>(vertex_count) + 1, 0);
+  corners.items.resize(static_cast<size_t>(triangles.size()));
+  const int blocks = most_threads();
+  // Each thread reads all corners and writes those of its own vertices.
+  const auto each_corner_of = [&](int block, const auto& work) {
+    const auto first = static_cast<int>(std::int64_t{vertex_count} * block / blocks);
+    const auto end = static_cast<int>(std::int64_t{vertex_count} * (block + 1) / blocks);
+    for (int corner = 0; corner < triangles.size(); ++corner) {
+      const int v = triangles.data()[corner];
+      if (v >= first && v < end) work(corner, corners.offsets[static_cast<size_t>(v)]);
+    }
+  };
+#pragma omp parallel for schedule(static)
+  for (int block = 0; block < blocks; ++block) {
+    each_corner_of(block, [](int, int& count) { ++count; });
+  }
+  std::exclusive_scan(corners.offsets.begin(), corners.offsets.end(), corners.offsets.begin(), 0);
+#pragma omp parallel for schedule(static)
+  for (int block = 0; block < blocks; ++block) {
+    each_corner_of(block, [&](int corner, int& next) { corners.items[static_cast<size_t>(next++)] = corner; });
+  }
+  // Each list now ends where its offset points to: the next one's begins there.
+  std::copy_backward(corners.offsets.begin(), corners.offsets.end() - 1, corners.offsets.end());
+  corners.offsets[0] = 0;
+  return corners;
 }
 
 Lists one_rings(const Edges& edges, int vertex_count) {

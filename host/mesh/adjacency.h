@@ -48,6 +48,9 @@ bool runs_along(const Triangles& triangles, int triangle, const Eigen::RowVector
 /// Triangles around each vertex, ascending.
 Lists triangles_of_vertices(const Triangles& triangles, int vertex_count);
 
+/// Corners of triangles at each vertex, ascending: 3 t + k is corner k of triangle t.
+Lists corners_of_vertices(const Triangles& triangles, int vertex_count);
+
 /// The vertices joined to each vertex by an edge, ascending.
 Lists one_rings(const Edges& edges, int vertex_count);
 

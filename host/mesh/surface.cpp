@@ -2,85 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 
+#include "same_places.h"
+
 namespace swage {
 namespace {
-
-/// The cells of a grid, twice the tolerance wide, that a point is in or as near to as that.
-class Grid {
- public:
-  struct Entry {
-    std::uint64_t cell;  ///< Its hash: cells that share one only cost comparisons.
-    int vertex;
-    bool operator<(const Entry& other) const { return std::pair(cell, vertex) < std::pair(other.cell, other.vertex); }
-  };
-
-  Grid(const Positions& positions, double tolerance)
-      : corner_(positions.colwise().minCoeff()), tolerance_(tolerance), width_(tolerance > 0 ? 2 * tolerance : 1) {}
-
-  void add(const Eigen::RowVector3d& point, int vertex, std::vector<Entry>& entries) const {
-    const Cell low = cell_of(point.array() - tolerance_), high = cell_of(point.array() + tolerance_);
-    for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-        for (std::int64_t z = low[2]; z <= high[2]; ++z) entries.push_back({hash({x, y, z}), vertex});
-      }
-    }
-  }
-
- private:
-  using Cell = std::array<std::int64_t, 3>;
-
-  Cell cell_of(const Eigen::RowVector3d& point) const {
-    Cell cell;
-    for (int k = 0; k < 3; ++k) {
-      cell[static_cast<size_t>(k)] = static_cast<std::int64_t>(std::floor((point[k] - corner_[k]) / width_));
-    }
-    return cell;
-  }
-
-  static std::uint64_t hash(const Cell& cell) {
-    std::uint64_t hash = 0;
-    for (const std::int64_t c : cell) {
-      hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
-      hash ^= hash >> 29;
-    }
-    return hash;
-  }
-
-  Eigen::RowVector3d corner_;
-  double tolerance_, width_;
-};
-
-/// Of each vertex the first at its place.
-std::vector<int> firsts_at_places(const Positions& positions, double tolerance) {
-  std::vector<int> firsts(static_cast<size_t>(positions.rows()));
-  std::iota(firsts.begin(), firsts.end(), 0);
-  const Grid grid(positions, tolerance);
-  std::vector<Grid::Entry> entries;
-  entries.reserve(firsts.size());
-  for (int v = 0; v < positions.rows(); ++v) grid.add(positions.row(v), v, entries);
-  std::sort(entries.begin(), entries.end());
-  std::vector<int> places;
-  for (size_t i = 0; i < entries.size(); ++i) {
-    if (i == 0 || entries[i].cell != entries[i - 1].cell) places.clear();
-    const int v = entries[i].vertex;
-    const auto at = std::find_if(places.begin(), places.end(), [&](int other) {
-      return (positions.row(other) - positions.row(v)).norm() <= tolerance;
-    });
-    if (at == places.end()) {
-      places.push_back(v);
-    } else {
-      int& first = firsts[static_cast<size_t>(v)];
-      first = std::min(first, *at);
-    }
-  }
-  for (int& first : firsts) first = firsts[static_cast<size_t>(first)];  // The first's own is known by then.
-  return firsts;
-}
 
 /// Of each triangle whether another before it has the same three vertices.
 std::vector<char> repeats(const Triangles& triangles, const Edges& edges) {

@@ -50,6 +50,7 @@ Eigen::VectorXi in_lanes(const Rest& rest, int lanes) {
   const Index count = rest.positions.rows();
   Eigen::VectorXi vertices((count + lanes - 1) / lanes * lanes);
   std::iota(vertices.begin(), vertices.end(), 0);
+#pragma omp parallel for schedule(dynamic)
   for (Index w = 0; w < count; w += kWindow) {
     std::stable_sort(vertices.begin() + w, vertices.begin() + std::min(w + kWindow, count),
                      [&](int a, int b) { return neighbours_of(rest, a) > neighbours_of(rest, b); });
@@ -67,15 +68,17 @@ Eigen::VectorXi first_slots(const Rest& rest, const Eigen::VectorXi& vertices, i
 
 using Slots = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A slot a row, filled up with the lane's vertex itself.
-Slots slots_of(const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first, int lanes) {
+/// A slot a row, filled up with the lane's vertex itself; vertices by where their rows of `width` numbers begin.
+Slots slots_of(const Rest& rest, const Eigen::VectorXi& vertices, const Eigen::VectorXi& first, int lanes, int width) {
   Slots slots(first.tail<1>()[0], lanes);
-  for (Index k = 0; k < vertices.size(); ++k) {
-    const int v = vertices[k], known = neighbours_of(rest, v);
-    const Index item = k / lanes;
-    auto lane = slots.col(k % lanes).segment(first[item], first[item + 1] - first[item]);
-    lane.setConstant(v);
-    std::copy_n(rest.neighbours.begin() + rest.offsets[static_cast<size_t>(v)], known, lane.begin() + 1);
+#pragma omp parallel for schedule(static)
+  for (Index item = 0; item < first.size() - 1; ++item) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int v = vertices[item * lanes + lane], known = neighbours_of(rest, v);
+      const int* const neighbours = rest.neighbours.data() + rest.offsets[static_cast<size_t>(v)];
+      auto own = slots.col(lane).segment(first[item], first[item + 1] - first[item]);
+      for (Index k = 0; k < own.size(); ++k) own[k] = width * (k > 0 && k <= known ? neighbours[k - 1] : v);
+    }
   }
   return slots;
 }
@@ -113,10 +116,10 @@ class OpenClCurvature final : public CurvatureStep {
         per_length_(inverse_extent(rest.positions)),
         vertices_(vertices),
         first_slots_(queue, first),
-        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes(kStem)) * width(queue.context->precision()),
+        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes(kStem), width(queue.context->precision())),
                Layout::rows),
         places_(queue, places(rest.positions, per_length_, queue.context->precision()), Layout::rows),
-        normals_(queue, rest.normals(vertices, Eigen::all)),
+        normals_(queue, Positions(rest.normals(vertices, Eigen::all))),  // An expression would be copied by blocks.
         curvatures_(queue, Index{2} * stride_),
         curvatures_in_lanes_(stride_, 2),
         fit_(queue, kStem, "fit_curvatures") {}

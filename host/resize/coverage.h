@@ -1,8 +1,9 @@
 // Which cells of the grid each triangle touches.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "cancel.h"
 #include "swage/backend.h"
@@ -10,20 +11,12 @@
 
 namespace swage {
 
-/// Cells of triangle t stand at offsets[t] .. offsets[t + 1], ascending.
-struct Coverage {
-  std::vector<Eigen::Index> offsets;
-  std::vector<int> cells;
-};
+using UseCells = std::function<void(Eigen::Index triangle, std::span<const int> cells)>;
 
-inline std::span<const int> cells_of(const Coverage& coverage, Eigen::Index triangle) {
-  const auto t = static_cast<size_t>(triangle);
-  const auto begin = coverage.offsets[t], end = coverage.offsets[t + 1];
-  return {coverage.cells.data() + begin, static_cast<size_t>(end - begin)};
-}
-
-/// Touching is by any common point, on the cell's boundary as within, up to rounding (1e-9 of a cell).
-Coverage coverage(const GridShape& shape, const PositionsRef& positions, const TrianglesRef& triangles,
-                  const Backend& backend, const Poll& poll);
+/// Calls `use` for one triangle after the other with the cells it touches, ascending: by any common point, on a cell's
+/// boundary as within, up to rounding (CarryStep::count_cells()). So lists of all, which may be long where large
+/// triangles cross many cells, are never there at once.
+void each_coverage(const GridShape& shape, const std::shared_ptr<const Mesh>& mesh, const Backend& backend,
+                   const Poll& poll, const UseCells& use);
 
 }  // namespace swage

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "assemble.h"
-#include "coverage.h"
 #include "grid.h"
 #include "preparation.h"
 #include "scales.h"
@@ -26,14 +25,13 @@ struct GridSolves {
 
 struct ResizePlan {
   ResizeOptions options;
-  Mesh mesh;
+  std::shared_ptr<const Mesh> mesh;
   GridShape shape;
 
   // Filled by prepare().
   Vulnerability vulnerability = {};
-  Coverage coverage = {};
-  CellMap found = {}, map = {};                ///< As found, and as it counts.
-  AxisValues asked = {};                       ///< #C × 3: 1 where the user protects, else 0.
+  CellMap found = {}, map = {};                ///< As faces have it, and as it counts.
+  AxisValues said = {};                        ///< #C × 3: the user's say, -1 where there is none.
   std::map<std::string, double> seconds = {};  ///< Of the preparation, by stage.
   bool prepared = false;
 
@@ -52,6 +50,8 @@ GridShape shape_of(const PositionsRef& positions, const ResizeOptions& options);
 bool prepare(ResizePlan& plan, const ProgressFn& progress);
 /// As found.
 void reset_map(ResizePlan& plan);
+/// Makes the map that counts: as faces have it, what is enclosed, and the user's say over all.
+void count_map(ResizePlan& plan);
 /// Those of the map as it counts.
 const GridSolves& solves_of(ResizePlan& plan);
 

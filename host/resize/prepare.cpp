@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coverage.h"
+#include "enclosed.h"
 #include "plan.h"
 #include "vulnerability.h"
 
@@ -11,17 +13,18 @@ namespace {
 using Eigen::Index;
 
 constexpr double kFlat = 1e-9;      // Of the diagonal: thinner boxes have no extent.
-constexpr double kUntouched = 0.1;  // phi of cells that no face touches.
+constexpr double kUntouched = 0.5;  // phi of cells that no face touches: what is hollow keeps its shape as well.
 
-CellMap map_of(const GridShape& shape, const Coverage& coverage, const AxisValues& theta) {
-  const Index count = shape.cells.count();
+CellMap map_of(const ResizePlan& plan, const Poll& poll) {
+  const AxisValues& theta = plan.vulnerability.theta;
+  const Index count = plan.shape.cells.count();
   CellMap map{AxisValues::Zero(count, 3), Eigen::VectorXd::Constant(count, kUntouched)};
-  for (Index t = 0; t < theta.rows(); ++t) {
-    for (const int c : cells_of(coverage, t)) {
+  each_coverage(plan.shape, plan.mesh, *plan.options.backend, poll, [&](Index t, std::span<const int> cells) {
+    for (const int c : cells) {
       map.theta.row(c) = map.theta.row(c).cwiseMax(theta.row(t));
       map.phi[c] = 1;
     }
-  }
+  });
   return map;
 }
 
@@ -50,24 +53,30 @@ GridShape shape_of(const PositionsRef& positions, const ResizeOptions& options) 
 bool prepare(ResizePlan& plan, const ProgressFn& progress) {
   return prepare_once(plan, [&](ResizePlan& made) {
     Preparation stages(progress, 1);
-    const Backend& backend = *made.options.backend;
     stages.begin("vulnerability", 0);
     {
       const Stopwatch watch(made.seconds["vulnerability"] = 0);
-      made.vulnerability =
-          vulnerability(made.mesh.positions, made.mesh.triangles, made.options.vulnerability, backend, stages.poll());
+      made.vulnerability = vulnerability(made.mesh->positions, made.mesh->triangles, made.options.vulnerability,
+                                         *made.options.backend, stages.poll());
     }
     stages.begin("coverage", 0.8);
     const Stopwatch watch(made.seconds["coverage"] = 0);
-    made.coverage = coverage(made.shape, made.mesh.positions, made.mesh.triangles, backend, stages.poll());
-    made.found = map_of(made.shape, made.coverage, made.vulnerability.theta);
+    made.found = map_of(made, stages.poll());
     reset_map(made);
   });
 }
 
 void reset_map(ResizePlan& plan) {
-  plan.map = plan.found;
-  plan.asked.setZero(plan.shape.cells.count(), 3);
+  plan.map.phi = plan.found.phi;
+  plan.said.setConstant(plan.shape.cells.count(), 3, -1);
+  count_map(plan);
+}
+
+void count_map(ResizePlan& plan) {
+  const auto is_said = plan.said.array() >= 0;
+  plan.map.theta = is_said.select(plan.said, plan.found.theta);
+  protect_enclosed(plan.shape, plan.map);
+  plan.map.theta = is_said.select(plan.said, plan.map.theta);
   plan.solves.reset();
 }
 

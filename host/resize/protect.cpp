@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "coverage.h"
 #include "plan.h"
 #include "swage/error.h"
 
@@ -18,8 +19,8 @@ constexpr double kGrazing = 1e-9;  // Cells: a box that ends where a cell begins
 void check_protection(const ResizePlan& plan, const Protection& protection) {
   if (!(protection.value >= 0 && protection.value <= 1)) refuse("value: not in [0, 1]");
   for (const int t : protection.triangles) {
-    if (t < 0 || t >= plan.mesh.triangles.rows()) {
-      refuse("triangles: " + std::to_string(t) + " is none of the " + std::to_string(plan.mesh.triangles.rows()) +
+    if (t < 0 || t >= plan.mesh->triangles.rows()) {
+      refuse("triangles: " + std::to_string(t) + " is none of the " + std::to_string(plan.mesh->triangles.rows()) +
              " triangles");
     }
   }
@@ -40,7 +41,9 @@ Span span_of(const GridShape& shape, const Eigen::AlignedBox3d& box, int u) {
   const auto cells = [&](double at) {
     return std::clamp((at - shape.corner[u]) / shape.size[u] * count, -1.0, count + 1);
   };
-  const double low = std::floor(cells(box.min()[u]) + kGrazing), high = std::ceil(cells(box.max()[u]) - kGrazing) - 1;
+  double low = std::floor(cells(box.min()[u]) + kGrazing);
+  const double end = cells(box.max()[u]), high = std::ceil(end - kGrazing) - 1;
+  if (end <= count) low = std::min(low, count - 1);  // Of a box without thickness on the grid's upper face.
   return {static_cast<int>(std::max(low, 0.0)), static_cast<int>(std::min(std::max(high, low), count - 1))};
 }
 
@@ -55,25 +58,33 @@ std::vector<Index> cells_in(const GridShape& shape, const Eigen::AlignedBox3d& b
   return cells;
 }
 
+/// Some triangles, each with vertices of its own.
+Mesh alone(const Mesh& mesh, const std::vector<int>& triangles) {
+  Mesh some{Positions(3 * triangles.size(), 3), Triangles(triangles.size(), 3)};
+  for (Index corner = 0; corner < some.triangles.size(); ++corner) {
+    const int t = triangles[static_cast<size_t>(corner / 3)];
+    some.positions.row(corner) = mesh.positions.row(mesh.triangles(t, corner % 3));
+    some.triangles.data()[corner] = static_cast<int>(corner);
+  }
+  return some;
+}
+
 }  // namespace
 
 void protect(ResizePlan& plan, const Protection& protection) {
   check_protection(plan, protection);
   std::vector<Index> cells;
   if (protection.box) cells = cells_in(plan.shape, *protection.box);
-  for (const int t : protection.triangles) {
-    const auto touched = cells_of(plan.coverage, t);
+  const auto chosen = std::make_shared<Mesh>(alone(*plan.mesh, protection.triangles));
+  each_coverage(plan.shape, chosen, *plan.options.backend, {}, [&](Index, std::span<const int> touched) {
     cells.insert(cells.end(), touched.begin(), touched.end());
-  }
+  });
   if (cells.empty()) refuse("triangles, box: they touch no cell of the grid");
   for (int u = 0; u < 3; ++u) {
     if (!protection.axes[static_cast<size_t>(u)]) continue;
-    for (const Index c : cells) {
-      plan.map.theta(c, u) = protection.value;
-      plan.asked(c, u) = protection.value >= kProtected ? 1 : 0;
-    }
+    for (const Index c : cells) plan.said(c, u) = protection.value;
   }
-  plan.solves.reset();
+  count_map(plan);
 }
 
 }  // namespace swage

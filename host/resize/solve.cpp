@@ -23,7 +23,7 @@ Eigen::RowVector3d shift_of(const GridShape& shape, const ResizeTarget& target) 
 
 ResizeResult unchanged(const ResizePlan& plan, Termination stop) {
   ResizeResult result;
-  result.positions = plan.mesh.positions;
+  result.positions = plan.mesh->positions;
   result.scales = AxisValues::Ones(plan.shape.cells.count(), 3);
   result.grid = rest_vertices(plan.shape);
   result.report.stop = stop;
@@ -78,7 +78,7 @@ ResizeResult solve_prepared(ResizePlan& plan, const ResizeTarget& target, Stages
   grid.positions.rowwise() += shift_of(plan.shape, target);
   {
     const Stopwatch watch(seconds["carry"]);
-    result.positions = carry(plan.shape, grid.positions, plan.mesh.positions);
+    result.positions = carry(plan.shape, grid.positions, plan.mesh, *plan.options.backend);
   }
 
   result.least_scale = scales.values.minCoeff();
@@ -101,7 +101,8 @@ ResizeResult solve_prepared(ResizePlan& plan, const ResizeTarget& target, Stages
 Resize::Resize(const PositionsRef& positions, const TrianglesRef& triangles, const ResizeOptions& options) {
   check(positions, triangles);
   check_options(positions, options);
-  plan_.reset(new ResizePlan{options, {positions, triangles}, shape_of(positions, options)});
+  plan_.reset(
+      new ResizePlan{options, std::make_shared<Mesh>(Mesh{positions, triangles}), shape_of(positions, options)});
   if (!plan_->options.backend) plan_->options.backend = cpu_backend();
 }
 Resize::~Resize() = default;
@@ -130,8 +131,9 @@ void Resize::protect(const Protection& protection) {
 void Resize::set_map(const CellMap& map) {
   check("Resize", plan_->shape, map);
   prepare();
-  swage::reset_map(*plan_);
-  plan_->map = map;
+  plan_->map.phi = map.phi;
+  plan_->said = map.theta;
+  count_map(*plan_);
 }
 
 void Resize::reset_map() {

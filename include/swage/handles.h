@@ -1,9 +1,11 @@
 // What the user asks for: vertices and where they shall go.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +63,10 @@ class Selection {
   /// The vertices selected, ascending. Throws InvalidInput where a vertex, component or group does not exist or
   /// nothing is selected, and UnreadableFile for a bad @file.
   std::vector<int> vertices(const MeshFile& file) const;
+
+  /// Where only a box and half spaces are joined, what of the mesh's bounding box they have in common; it may hold no
+  /// vertex. None for other selections. Throws InvalidInput where they have nothing in common.
+  std::optional<Eigen::AlignedBox3d> region(const MeshFile& file) const;
 
  private:
   struct Term;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "swage/error.h"
 #include "swage/mesh.h"
+#include "swage/protective_grid.h"
+#include "swage/tape.h"
 
 namespace swage {
 
@@ -170,6 +173,88 @@ class ClosestNormalStep {
   /// `units`: #N × 3, of length 1. Gives #N numbers: whose of the style's normals is at the least angle, of several
   /// equally near the first; 0 for a row of zeros.
   virtual void find(const Positions& units, Eigen::VectorXi& closest) = 0;
+};
+
+/// Maps of a surface's neighbourhoods (template_edit.h; paper eq. 13, 17): of each element the linear map that takes
+/// its rest normal n to its normal now n', and the plane across n to that across n', where it fits the pairs' edges
+/// best: n' nᵀ + P' (sum_p w_p b_p a_pᵀ + sum_j w_j T_j) (P (sum_p w_p a_p a_pᵀ + sum_j w_j I) P)⁺, with P = I - n nᵀ,
+/// a the rest edges, b the edges now, and T_j a neighbour's last map, turned by the shortest rotations from n to its
+/// rest normal and from its normal now to n'.
+class LocalMapStep {
+ public:
+  struct Rest {
+    PairsRest pairs;              ///< With normals, whose weights do not matter; no weight below 0.
+    std::vector<int> offsets;     ///< #N + 1: neighbours of element n stand at offsets[n] .. offsets[n + 1]. Or none.
+    std::vector<int> neighbours;  ///< Elements.
+    Eigen::VectorXd smoothing;    ///< Their weights, at least 0, of the unit of w |a|².
+  };
+
+  virtual ~LocalMapStep() = default;
+  /// `normals`: #N × 3 unit, now. `maps`: #N × 9, the last ones where there are neighbours; becomes the new ones.
+  virtual void fit(const Positions& positions, const Positions& normals, Transforms& maps) = 0;
+};
+
+/// What is known of a template's field at points.
+struct FieldValues {
+  Eigen::VectorXd values;                                                                ///< #P: negative inside.
+  Positions gradients;                                                                   ///< #P × 3, in space.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_parameters;  ///< #P × #parameters.
+};
+
+/// How much of it is asked for.
+enum class FieldDerivatives { none, in_space, all };
+
+/// A template's field (template.h): its tape run at points, with the derivatives of every instruction.
+class FieldStep {
+ public:
+  virtual ~FieldStep() = default;
+  /// `parameters`: as many as the tape has. What is not asked for is left as it is.
+  virtual void evaluate(const Positions& points, const Eigen::VectorXd& parameters, FieldDerivatives derivatives,
+                        FieldValues& field) = 0;
+};
+
+/// Of a list those from `first` to `end`, the latter left out: long ones can be asked for in parts.
+struct Slice {
+  Eigen::Index first, end;
+
+  Eigen::Index count() const { return end - first; }
+};
+
+/// Resizing, per triangle and vertex (resize.h; paper sections 4 and 5): how far scaling takes triangles off their
+/// surface, which cells of a grid they touch, and where the grid takes the vertices.
+class CarryStep {
+ public:
+  struct Rest {
+    std::shared_ptr<const Mesh> mesh;  ///< Not null, with finite positions.
+    /// #T × 3: side 3 t + k of triangle t runs from its corner k to corner k + 1. Of each the next along its edge, in
+    /// a ring; a side alone is its own next. No rows: slippage is not asked for.
+    Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> next_sides;
+  };
+
+  /// Sides along an edge, after one, that a triangle sees.
+  static constexpr int kMostBeside = 64;
+  /// Of the longest side, the height up to which a triangle has no normal: such have no slippage, and count nowhere.
+  static constexpr double kLeastHeight = 1e-5;
+
+  virtual ~CarryStep() = default;
+
+  /// A row a triangle of the slice: for each axis u the mean of |n' · u| over its three sides and all sides beside
+  /// those, n' the normal of a side's triangle, as wound here. Weights: the side's length times max(0, n · n').
+  virtual void slippage(Slice triangles, AxisValues& means) = 0;
+
+  /// How many of the grid's cells each triangle of the slice touches: by any common point, on boundaries as within.
+  /// Up to rounding: all cells that are touched, none that a cell wider by cell_rounding() to all sides would not be.
+  virtual void count_cells(const GridShape& shape, Slice triangles, Eigen::VectorXi& counts) = 0;
+  /// Which: of each triangle of the slice, after those of the one before, ascending. `counts`: of the same slice.
+  virtual void list_cells(const GridShape& shape, Slice triangles, const Eigen::VectorXi& counts,
+                          Eigen::VectorXi& cells) = 0;
+  /// In parts of a cell's width.
+  virtual double cell_rounding(const GridShape&) const { return 1e-9; }
+
+  /// #V × 3: where the trilinear map of its cell takes each vertex; one outside goes as its nearest cell's map,
+  /// continued. `grid`: the grid's vertices, #(nx+1)(ny+1)(nz+1) × 3. Along an axis in which the grid has no extent
+  /// vertices keep their distance from it.
+  virtual void carry(const GridShape& shape, const AxisValues& grid, Positions& carried) = 0;
 };
 
 }  // namespace swage

@@ -57,12 +57,13 @@ class Usage : public testing::Test {
 TEST_F(Usage, WithoutArgumentsHelpIsPrinted) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, 2);
-  for (const char* command : {"reshape", "stylize", "info", "demo"}) EXPECT_THAT(outcome.err, HasSubstr(command));
+  for (const char* command : {"reshape", "stylize", "resize", "info", "demo"})
+    EXPECT_THAT(outcome.err, HasSubstr(command));
   EXPECT_EQ(outcome.out, "");
 }
 
 TEST_F(Usage, HelpAndVersionOnEveryLevel) {
-  for (const Arguments& level : {Arguments{}, {"reshape"}, {"stylize"}, {"info"}, {"demo"}}) {
+  for (const Arguments& level : {Arguments{}, {"reshape"}, {"stylize"}, {"resize"}, {"info"}, {"demo"}}) {
     Arguments help = level, version = level;
     help.push_back("--help");
     version.push_back("--version");

@@ -77,6 +77,50 @@ TEST(Selection, FromAFile) {
   EXPECT_THROW(select("@" + (folder / "missing").string()), UnreadableFile);
 }
 
+Eigen::AlignedBox3d region(const std::string& text) {
+  const auto box = Selection(text).region(two_triangles());
+  EXPECT_TRUE(box) << text;
+  return box.value_or(Eigen::AlignedBox3d());
+}
+
+// The mesh's box is (0, 0, 0) to (0.5, 2, 7).
+TEST(Selection, BoxesAndHalfSpacesAreRegions) {
+  EXPECT_EQ(region("box:0.1,1,2,0.4,2,3").min(), Eigen::Vector3d(0.1, 1, 2));
+  EXPECT_EQ(region("box:0.4,1,3,0.1,2,2").max(), Eigen::Vector3d(0.4, 2, 3));
+  EXPECT_EQ(region("y>=25% & z<=5").min(), Eigen::Vector3d(0, 0.5, 0));
+  EXPECT_EQ(region("y>=25% & z<=5").max(), Eigen::Vector3d(0.5, 2, 5));
+  EXPECT_EQ(region("box:-9,-9,-9,9,1,9 & y>=1").sizes(), Eigen::Vector3d(0.5, 0, 7)) << "clipped to the mesh's box";
+}
+
+TEST(Selection, ARegionHoldsTheVerticesSelected) {
+  const Positions positions = two_triangles().mesh.positions;
+  for (const char* text : {"x<0.2", "x<=0.2", "x>0.2", "x>=0.2", "y>0&y<2", "z>=100%", "box:0.1,1,0,0.4,2,1 & x>0.1"}) {
+    const Eigen::AlignedBox3d box = region(text);
+    Vertices inside;
+    for (int v = 0; v < positions.rows(); ++v) {
+      if (box.contains(positions.row(v).transpose())) inside.push_back(v);
+    }
+    EXPECT_EQ(inside, select(text)) << text;
+  }
+}
+
+TEST(Selection, ARegionNeedsNoVertex) {
+  EXPECT_THROW(select("box:0.1,0.4,3,0.2,0.6,4"), InvalidInput);
+  EXPECT_NEAR(region("box:0.1,0.4,3,0.2,0.6,4").volume(), 0.1 * 0.2, 1e-12);
+  for (const char* text : {"box:1,0,0,2,1,1", "x<0%", "z>7", "x<0.2 & x>0.2", "x<0.1&x>0.3"}) {
+    EXPECT_THROW(static_cast<void>(Selection(text).region(two_triangles())), InvalidInput) << text;
+  }
+}
+
+TEST(Selection, WhatIsNoRegionHasNone) {
+  const TempFolder folder;
+  write_text(folder / "ids", "1");
+  for (const std::string& text : {std::string("1"), std::string("component:0"), std::string("group:left & x>0"),
+                                  "x>0 & @" + (folder / "ids").string()}) {
+    EXPECT_FALSE(Selection(text).region(two_triangles())) << text;
+  }
+}
+
 TEST(Selection, QuotesWhatItDoesNotUnderstand) {
   for (const char* text : {"",
                            "&1",

