@@ -125,7 +125,7 @@ class Met {
   }
 
   std::vector<Slot> slots_ = std::vector<Slot>(256);  // A power of two.
-  size_t count_ = 0;                                   // Asked for from this vertex.
+  size_t count_ = 0;                                  // Asked for from this vertex.
   int from_ = -1;
 };
 

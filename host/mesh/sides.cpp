@@ -82,8 +82,8 @@ std::vector<int> firsts_alike(const Triangles& triangles, const Lists& corners) 
     for (int v = 0; v < corners.size(); ++v) {
       opposites.clear();
       for (const int corner : corners[v]) {
-        const auto [low, high] = std::minmax(triangles.data()[next_in_triangle(corner)],
-                                             triangles.data()[previous_in_triangle(corner)]);
+        const auto [low, high] =
+            std::minmax(triangles.data()[next_in_triangle(corner)], triangles.data()[previous_in_triangle(corner)]);
         if (low > v) opposites.push_back({packed(low, high), corner / 3});
       }
       std::sort(opposites.begin(), opposites.end());
@@ -110,7 +110,8 @@ int wind_alike(Triangles& triangles, const NextSides& next) {
         const int other = only_other(next, side);
         if (other < 0 || turned[static_cast<size_t>(other / 3)] != kUnmet) continue;
         const bool alike = !same_way(triangles, side, other);
-        turned[static_cast<size_t>(other / 3)] = static_cast<char>((turned[static_cast<size_t>(walk[i])] == 1) == alike);
+        turned[static_cast<size_t>(other / 3)] =
+            static_cast<char>((turned[static_cast<size_t>(walk[i])] == 1) == alike);
         walk.push_back(other / 3);
       }
     }

@@ -127,7 +127,7 @@ class OpenClCarry final : public CarryStep {
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
   HostRows grid_, positions_;
   Reals residues_;
-  Visit shown_;  // As long as this lives.
+  Visit shown_;                               // As long as this lives.
   std::optional<Ints> corners_, next_sides_;  // None, until they are asked for.
   Kernel mean_slippages_{queue_, kStem, "mean_slippages"};
   Kernel touch_cells_{queue_, kStem, "touch_cells"};

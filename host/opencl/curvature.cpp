@@ -116,8 +116,7 @@ class OpenClCurvature final : public CurvatureStep {
         per_length_(inverse_extent(rest.positions)),
         vertices_(vertices),
         first_slots_(queue, first),
-        slots_(queue,
-               slots_of(rest, vertices, first, queue.context->lanes(kStem), width(queue.context->precision())),
+        slots_(queue, slots_of(rest, vertices, first, queue.context->lanes(kStem), width(queue.context->precision())),
                Layout::rows),
         places_(queue, places(rest.positions, per_length_, queue.context->precision()), Layout::rows),
         normals_(queue, Positions(rest.normals(vertices, Eigen::all))),  // An expression would be copied by blocks.

@@ -15,7 +15,7 @@ using Eigen::RowVector3d;
 
 constexpr int kRings = 2;
 constexpr double kAlongNormal = 0.99984769515639127;  // Cosine of a degree.
-constexpr Index kVertices = 1 << 17;                   // Fitted at once.
+constexpr Index kVertices = 1 << 17;                  // Fitted at once.
 // Coordinates of six digits make flat parts curve by 1e-6 of the diagonal over the square of their edges' length:
 // shorter edges than this, of the diagonal, need the mean with their neighbours, of half the length twice that, and so
 // on. Grids do not see what is lost.

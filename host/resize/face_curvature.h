@@ -15,8 +15,8 @@ namespace swage {
 using CurvatureTensor = Eigen::Matrix<float, 1, 6>;
 using CurvatureTensors = Eigen::Matrix<float, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// |k(u)| for each axis u, of a surface of this unit normal: along u projected onto it, or the largest of all where u is
-/// within a degree of the normal.
+/// |k(u)| for each axis u, of a surface of this unit normal: along u projected onto it, or the largest of all where u
+/// is within a degree of the normal.
 Eigen::RowVector3d curvatures_along(const CurvatureTensor& tensor, const Eigen::RowVector3d& normal);
 
 /// How vertices of a mesh curve, cut along its creases. `diagonal`: of its box.

@@ -101,7 +101,8 @@ ResizeResult solve_prepared(ResizePlan& plan, const ResizeTarget& target, Stages
 Resize::Resize(const PositionsRef& positions, const TrianglesRef& triangles, const ResizeOptions& options) {
   check(positions, triangles);
   check_options(positions, options);
-  plan_.reset(new ResizePlan{options, std::make_shared<Mesh>(Mesh{positions, triangles}), shape_of(positions, options)});
+  plan_.reset(
+      new ResizePlan{options, std::make_shared<Mesh>(Mesh{positions, triangles}), shape_of(positions, options)});
   if (!plan_->options.backend) plan_->options.backend = cpu_backend();
 }
 Resize::~Resize() = default;

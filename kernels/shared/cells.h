@@ -1,8 +1,8 @@
-// Which cells of a grid a triangle touches, in C99 ∩ C++, after vec3.h. In units of cells: cell (i, j, k) reaches from i
-// to i + 1 and so on. A triangle and a cube meet unless one of thirteen axes separates them: the cube's, the triangle's
-// normal, and the products of their edges. For the cubes of one row each axis leaves a range of middles x, in closed
-// form, and those of a product with the row's direction decide which rows meet at all. So a triangle costs as many steps
-// as it touches rows.
+// Which cells of a grid a triangle touches, in C99 ∩ C++, after vec3.h. In units of cells: cell (i, j, k) reaches from
+// i to i + 1 and so on. A triangle and a cube meet unless one of thirteen axes separates them: the cube's, the
+// triangle's normal, and the products of their edges. For the cubes of one row each axis leaves a range of middles x,
+// in closed form, and those of a product with the row's direction decide which rows meet at all. So a triangle costs as
+// many steps as it touches rows.
 
 /// Along each axis the places of three corners.
 typedef struct {
@@ -104,6 +104,4 @@ static inline Cells cells_in(Range r, int count) {
 
 /// Of eight corners of a cell, x running fastest, along one axis: at a place in the cell, from 0 to 1.
 static inline real blend(real at, real low, real high) { return ((real)1 - at) * low + at * high; }
-static inline Vec3 blend3(real at, Vec3 low, Vec3 high) {
-  return add3(scale3((real)1 - at, low), scale3(at, high));
-}
+static inline Vec3 blend3(real at, Vec3 low, Vec3 high) { return add3(scale3((real)1 - at, low), scale3(at, high)); }

@@ -131,9 +131,14 @@ TYPED_TEST(CellMaths, RowsOfCubesThatMeetATriangleAreThoseThatNoAxisSeparates) {
 
 TYPED_TEST(CellMaths, CellsOfARangeAreThoseWhoseMiddlesItHas) {
   using real = typename TypeParam::real;
-  for (const auto& [low, high, first, last] :
-       {std::array<double, 4>{0.4, 2.6, 0, 2}, {0.5, 2.5, 0, 2}, {0.51, 2.49, 1, 1}, {-1e20, 1e20, 0, 4}, {7, 9, 5, 4},
-        {-9, -7, 0, -1}, {3, 1, 3, 0}, {1e30, -1e30, 5, -1}}) {
+  for (const auto& [low, high, first, last] : {std::array<double, 4>{0.4, 2.6, 0, 2},
+                                               {0.5, 2.5, 0, 2},
+                                               {0.51, 2.49, 1, 1},
+                                               {-1e20, 1e20, 0, 4},
+                                               {7, 9, 5, 4},
+                                               {-9, -7, 0, -1},
+                                               {3, 1, 3, 0},
+                                               {1e30, -1e30, 5, -1}}) {
     const auto cells = cells_in(typename TypeParam::Range{static_cast<real>(low), static_cast<real>(high)}, 5);
     EXPECT_EQ(cells.first, first) << low << " to " << high;
     EXPECT_EQ(cells.last, last) << low << " to " << high;

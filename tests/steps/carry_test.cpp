@@ -201,8 +201,8 @@ TEST_P(CarryStepBy, CarriesByTheTrilinearMap) {
   if (!backend_) return;
   const GridShape shape = {{{4, 3, 5}}, {-1, 2, 3}, {6, 5, 4}};
   const AxisValues rest = rest_vertices(shape), waves = rest + 0.1 * (3 * rest).array().sin().matrix();
-  Mesh mesh{shape.corner.replicate(500, 1) + (Positions::Random(500, 3).array() * 0.5 + 0.5).matrix() *
-                                                  shape.size.asDiagonal(),
+  Mesh mesh{shape.corner.replicate(500, 1) +
+                (Positions::Random(500, 3).array() * 0.5 + 0.5).matrix() * shape.size.asDiagonal(),
             Triangles(0, 3)};
   Positions carried;
   step(mesh)->carry(shape, waves, carried);
