@@ -25,6 +25,8 @@ class CpuBackend final : public Backend {
   std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const override {
     return cpu_closest_normal(normals);
   }
+  std::unique_ptr<FieldStep> field(const Tape& tape) const override { return cpu_field(tape); }
+  std::unique_ptr<LocalMapStep> local_map(const LocalMapStep::Rest& rest) const override { return cpu_local_map(rest); }
   std::unique_ptr<CarryStep> carry(CarryStep::Rest rest) const override { return cpu_carry(std::move(rest)); }
 };
 

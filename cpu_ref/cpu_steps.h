@@ -14,6 +14,8 @@ std::unique_ptr<CouplingStep> cpu_coupling(const TransformStep::Rest& rest);
 std::unique_ptr<CurvatureStep> cpu_curvature(const CurvatureStep::Rest& rest);
 std::unique_ptr<NormalFitStep> cpu_normal_fit(const NormalFitStep::Rest& rest);
 std::unique_ptr<ClosestNormalStep> cpu_closest_normal(const Positions& normals);
+std::unique_ptr<FieldStep> cpu_field(const Tape& tape);
+std::unique_ptr<LocalMapStep> cpu_local_map(const LocalMapStep::Rest& rest);
 std::unique_ptr<CarryStep> cpu_carry(CarryStep::Rest rest);
 
 }  // namespace swage

@@ -65,7 +65,7 @@ void add_target_options(CLI::App& app, TargetOptions& options) {
                  "large as they are where there is room (shape)")
       ->group(group)
       ->check(CLI::IsMember({"shape", "size"}));
-  app.add_option("--keep-weight", options.keep_weight, "How much --keep size counts (1)")
+  app.add_option("--keep-weight", options.keep_weight, "How much --keep size counts (10)")
       ->group(group)
       ->check(between(1e-9, 1e9));
 }

@@ -38,6 +38,10 @@ class OpenClBackend final : public Backend {
   std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const override {
     return opencl_closest_normal(context_, normals);
   }
+  std::unique_ptr<FieldStep> field(const Tape& tape) const override { return opencl_field(context_, tape); }
+  std::unique_ptr<LocalMapStep> local_map(const LocalMapStep::Rest& rest) const override {
+    return opencl_local_map(context_, rest);
+  }
   std::unique_ptr<CarryStep> carry(CarryStep::Rest rest) const override {
     return opencl_carry(context_, std::move(rest));
   }

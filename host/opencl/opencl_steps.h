@@ -17,6 +17,8 @@ std::unique_ptr<CouplingStep> opencl_coupling(const SharedContext& context, cons
 std::unique_ptr<CurvatureStep> opencl_curvature(const SharedContext& context, const CurvatureStep::Rest& rest);
 std::unique_ptr<NormalFitStep> opencl_normal_fit(const SharedContext& context, const NormalFitStep::Rest& rest);
 std::unique_ptr<ClosestNormalStep> opencl_closest_normal(const SharedContext& context, const Positions& normals);
+std::unique_ptr<FieldStep> opencl_field(const SharedContext& context, const Tape& tape);
+std::unique_ptr<LocalMapStep> opencl_local_map(const SharedContext& context, const LocalMapStep::Rest& rest);
 std::unique_ptr<CarryStep> opencl_carry(const SharedContext& context, CarryStep::Rest rest);
 
 }  // namespace swage

@@ -11,6 +11,9 @@
 namespace swage {
 
 constexpr double kLeastVulnerability = 1e-3;
+/// What shear counts beside scales. The paper's 1 leaves wheels, dials and hatches twice to four times as far from
+/// round.
+constexpr double kOrthogonality = 0.05;
 
 struct AssemblyOptions {
   double tolerance = 1e-6;  ///< Part of the error that may be left, in (0, 1).
@@ -27,7 +30,7 @@ struct GridVertices {
 
 /// Minimises, for each axis u by itself, over all cells c
 ///   max(theta_u, 1e-3) (x_2 - x_1 - s_u h_u)² on the cell's four edges along u, h_u their length at rest
-///   + phi (x_2 - x_1)² on its eight others,
+///   + 0.05 phi (x_2 - x_1)² on its eight others,
 /// where the outer faces across u are the asked size apart and no edge along u is shorter than
 /// kLeastEdge min(1, S_u) h_u. Edges of that length do not keep a sheared cell from folding: phi of cells that do is
 /// raised tenfold, and all is solved again, until none does. Deterministic: the same bytes from any number of threads.

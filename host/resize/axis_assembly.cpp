@@ -74,7 +74,7 @@ Index TurnedGrid::turned(const Extents& extents, int i, int j, int k) const {
 AxisAssembly::AxisAssembly(const Extents& cells, const CellMap& map, int u)
     : grid_(cells, u),
       theta_(turned(grid_, map.theta.col(u).cwiseMax(kLeastVulnerability))),
-      matrix_(matrix_of(grid_, theta_, turned(grid_, map.phi))),
+      matrix_(matrix_of(grid_, theta_, turned(grid_, kOrthogonality * map.phi))),
       levels_(matrix_) {}
 
 void AxisAssembly::pull(const Eigen::VectorXd& scales, double factor, AxisWork& work) const {

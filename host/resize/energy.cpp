@@ -75,7 +75,7 @@ AssemblyTerms assembly_terms(const GridShape& shape, const CellMap& map, const A
           if (axis == u) {
             terms.scale += std::max(map.theta(c, u), kLeastVulnerability) * square(off - scales(c, u));
           } else {
-            terms.orthogonality += map.phi[c] * square(off);
+            terms.orthogonality += kOrthogonality * map.phi[c] * square(off);
           }
         }
       }

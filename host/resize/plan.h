@@ -30,8 +30,8 @@ struct ResizePlan {
 
   // Filled by prepare().
   Vulnerability vulnerability = {};
-  CellMap found = {}, map = {};                ///< As found, and as it counts.
-  AxisValues asked = {};                       ///< #C × 3: 1 where the user protects, else 0.
+  CellMap found = {}, map = {};                ///< As faces have it, and as it counts.
+  AxisValues said = {};                        ///< #C × 3: the user's say, -1 where there is none.
   std::map<std::string, double> seconds = {};  ///< Of the preparation, by stage.
   bool prepared = false;
 
@@ -50,6 +50,8 @@ GridShape shape_of(const PositionsRef& positions, const ResizeOptions& options);
 bool prepare(ResizePlan& plan, const ProgressFn& progress);
 /// As found.
 void reset_map(ResizePlan& plan);
+/// Makes the map that counts: as faces have it, what is enclosed, and the user's say over all.
+void count_map(ResizePlan& plan);
 /// Those of the map as it counts.
 const GridSolves& solves_of(ResizePlan& plan);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "coverage.h"
+#include "enclosed.h"
 #include "plan.h"
 #include "vulnerability.h"
 
@@ -12,7 +13,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kFlat = 1e-9;      // Of the diagonal: thinner boxes have no extent.
-constexpr double kUntouched = 0.1;  // phi of cells that no face touches.
+constexpr double kUntouched = 0.5;  // phi of cells that no face touches: what is hollow keeps its shape as well.
 
 CellMap map_of(const ResizePlan& plan, const Poll& poll) {
   const AxisValues& theta = plan.vulnerability.theta;
@@ -66,8 +67,16 @@ bool prepare(ResizePlan& plan, const ProgressFn& progress) {
 }
 
 void reset_map(ResizePlan& plan) {
-  plan.map = plan.found;
-  plan.asked.setZero(plan.shape.cells.count(), 3);
+  plan.map.phi = plan.found.phi;
+  plan.said.setConstant(plan.shape.cells.count(), 3, -1);
+  count_map(plan);
+}
+
+void count_map(ResizePlan& plan) {
+  const auto is_said = plan.said.array() >= 0;
+  plan.map.theta = is_said.select(plan.said, plan.found.theta);
+  protect_enclosed(plan.shape, plan.map);
+  plan.map.theta = is_said.select(plan.said, plan.map.theta);
   plan.solves.reset();
 }
 

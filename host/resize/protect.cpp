@@ -82,12 +82,9 @@ void protect(ResizePlan& plan, const Protection& protection) {
   if (cells.empty()) refuse("triangles, box: they touch no cell of the grid");
   for (int u = 0; u < 3; ++u) {
     if (!protection.axes[static_cast<size_t>(u)]) continue;
-    for (const Index c : cells) {
-      plan.map.theta(c, u) = protection.value;
-      plan.asked(c, u) = protection.value >= kProtected ? 1 : 0;
-    }
+    for (const Index c : cells) plan.said(c, u) = protection.value;
   }
-  plan.solves.reset();
+  count_map(plan);
 }
 
 }  // namespace swage

@@ -131,8 +131,9 @@ void Resize::protect(const Protection& protection) {
 void Resize::set_map(const CellMap& map) {
   check("Resize", plan_->shape, map);
   prepare();
-  swage::reset_map(*plan_);
-  plan_->map = map;
+  plan_->map.phi = map.phi;
+  plan_->said = map.theta;
+  count_map(*plan_);
 }
 
 void Resize::reset_map() {

@@ -82,7 +82,7 @@ void tell_kept_size(const ResizePlan& plan, ResizeResult& result) {
 void tell_kept_shape(const ResizePlan& plan, ResizeResult& result) {
   for (int u = 0; u < 3; ++u) {
     if (!plan.shape.extends(u)) continue;
-    const Protected found = protected_along(plan.shape, plan.asked, result.scales, u);
+    const Protected found = protected_along(plan.shape, plan.said, result.scales, u);
     if (found.count == 0 || found.longest <= result.factors[u]) continue;
     result.report.warnings.push_back(along(u) + "what is protected is larger than the new size, and shrinks" +
                                      scales_of(found) + ": " + too_long(found, result.factors[u]) +

@@ -43,6 +43,8 @@ class Backend {
   virtual std::unique_ptr<NormalFitStep> normal_fit(const NormalFitStep::Rest& rest) const = 0;
   /// `normals`: #M × 3, of length 1; at least one.
   virtual std::unique_ptr<ClosestNormalStep> closest_normal(const Positions& normals) const = 0;
+  virtual std::unique_ptr<FieldStep> field(const Tape& tape) const = 0;
+  virtual std::unique_ptr<LocalMapStep> local_map(const LocalMapStep::Rest& rest) const = 0;
   /// The step keeps `rest`.
   virtual std::unique_ptr<CarryStep> carry(CarryStep::Rest rest) const = 0;
 };

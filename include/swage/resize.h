@@ -60,7 +60,8 @@ struct ResizeTarget {
   Eigen::RowVector3d factors{1, 1, 1};  ///< The new size of the box over the old, each in [1e-6, 1e6]. Along axes in
                                         ///< which the model has no extent they mean nothing.
   ResizeKeep keep = ResizeKeep::shape;
-  double size_weight = 1;  ///< Of ResizeKeep::size, above 0: times what each cell pays.
+  double size_weight = 10;  ///< Of ResizeKeep::size, above 0: times what each cell pays. More keeps size a little
+                            ///< better where there is room, and shape worse where there is little.
   std::array<ResizeAnchor, 3> anchors = {ResizeAnchor::low, ResizeAnchor::low, ResizeAnchor::low};
 };
 
@@ -105,7 +106,8 @@ class Resize {
 
   const GridShape& shape() const;
   const Vulnerability& vulnerability();
-  /// As it counts: as found, with what was laid over it.
+  /// As it counts: as found, with what was laid over it and what vulnerable cells then enclose, such as a dial's rim
+  /// its middle.
   const CellMap& map();
 
   /// Throws InvalidInput where a triangle or the box's numbers are none, nothing is touched, or the value is out of its

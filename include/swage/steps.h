@@ -10,6 +10,7 @@
 #include "swage/error.h"
 #include "swage/mesh.h"
 #include "swage/protective_grid.h"
+#include "swage/tape.h"
 
 namespace swage {
 
@@ -174,6 +175,44 @@ class ClosestNormalStep {
   virtual void find(const Positions& units, Eigen::VectorXi& closest) = 0;
 };
 
+/// Maps of a surface's neighbourhoods (template_edit.h; paper eq. 13, 17): of each element the linear map that takes
+/// its rest normal n to its normal now n', and the plane across n to that across n', where it fits the pairs' edges
+/// best: n' nᵀ + P' (sum_p w_p b_p a_pᵀ + sum_j w_j T_j) (P (sum_p w_p a_p a_pᵀ + sum_j w_j I) P)⁺, with P = I - n nᵀ,
+/// a the rest edges, b the edges now, and T_j a neighbour's last map, turned by the shortest rotations from n to its
+/// rest normal and from its normal now to n'.
+class LocalMapStep {
+ public:
+  struct Rest {
+    PairsRest pairs;              ///< With normals, whose weights do not matter; no weight below 0.
+    std::vector<int> offsets;     ///< #N + 1: neighbours of element n stand at offsets[n] .. offsets[n + 1]. Or none.
+    std::vector<int> neighbours;  ///< Elements.
+    Eigen::VectorXd smoothing;    ///< Their weights, at least 0, of the unit of w |a|².
+  };
+
+  virtual ~LocalMapStep() = default;
+  /// `normals`: #N × 3 unit, now. `maps`: #N × 9, the last ones where there are neighbours; becomes the new ones.
+  virtual void fit(const Positions& positions, const Positions& normals, Transforms& maps) = 0;
+};
+
+/// What is known of a template's field at points.
+struct FieldValues {
+  Eigen::VectorXd values;                                                                ///< #P: negative inside.
+  Positions gradients;                                                                   ///< #P × 3, in space.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_parameters;  ///< #P × #parameters.
+};
+
+/// How much of it is asked for.
+enum class FieldDerivatives { none, in_space, all };
+
+/// A template's field (template.h): its tape run at points, with the derivatives of every instruction.
+class FieldStep {
+ public:
+  virtual ~FieldStep() = default;
+  /// `parameters`: as many as the tape has. What is not asked for is left as it is.
+  virtual void evaluate(const Positions& points, const Eigen::VectorXd& parameters, FieldDerivatives derivatives,
+                        FieldValues& field) = 0;
+};
+
 /// Of a list those from `first` to `end`, the latter left out: long ones can be asked for in parts.
 struct Slice {
   Eigen::Index first, end;
@@ -187,8 +226,8 @@ class CarryStep {
  public:
   struct Rest {
     std::shared_ptr<const Mesh> mesh;  ///< Not null, with finite positions.
-    /// #T × 3: side 3 t + k of triangle t runs from its corner k to corner k + 1. Of each the next along its edge, in a
-    /// ring; a side alone is its own next. No rows: slippage is not asked for.
+    /// #T × 3: side 3 t + k of triangle t runs from its corner k to corner k + 1. Of each the next along its edge, in
+    /// a ring; a side alone is its own next. No rows: slippage is not asked for.
     Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> next_sides;
   };
 
@@ -203,8 +242,8 @@ class CarryStep {
   /// those, n' the normal of a side's triangle, as wound here. Weights: the side's length times max(0, n · n').
   virtual void slippage(Slice triangles, AxisValues& means) = 0;
 
-  /// How many of the grid's cells each triangle of the slice touches: by any common point, on boundaries as within. Up
-  /// to rounding: all cells that are touched, none that a cell wider by cell_rounding() to all sides would not be.
+  /// How many of the grid's cells each triangle of the slice touches: by any common point, on boundaries as within.
+  /// Up to rounding: all cells that are touched, none that a cell wider by cell_rounding() to all sides would not be.
   virtual void count_cells(const GridShape& shape, Slice triangles, Eigen::VectorXi& counts) = 0;
   /// Which: of each triangle of the slice, after those of the one before, ascending. `counts`: of the same slice.
   virtual void list_cells(const GridShape& shape, Slice triangles, const Eigen::VectorXi& counts,

@@ -57,7 +57,8 @@ class Usage : public testing::Test {
 TEST_F(Usage, WithoutArgumentsHelpIsPrinted) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, 2);
-  for (const char* command : {"reshape", "stylize", "resize", "info", "demo"}) EXPECT_THAT(outcome.err, HasSubstr(command));
+  for (const char* command : {"reshape", "stylize", "resize", "info", "demo"})
+    EXPECT_THAT(outcome.err, HasSubstr(command));
   EXPECT_EQ(outcome.out, "");
 }
 

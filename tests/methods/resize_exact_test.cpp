@@ -208,7 +208,7 @@ Squares assembly_energy(const GridShape& shape, const CellMap& map, const AxisVa
         if ((corner >> v & 1) == 1) continue;
         const Index first = vertices.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2));
         const double length = shape.size[u] / shape.cells[u];
-        squares.add(v == u ? std::max(map.theta(c, u), 1e-3) : map.phi[c],
+        squares.add(v == u ? std::max(map.theta(c, u), 1e-3) : 0.05 * map.phi[c],
                     {{first + vertices.stride(v), 1}, {first, -1}}, v == u ? scales(c, u) * length : 0);
       }
     }
@@ -248,7 +248,7 @@ struct AssemblyRows {
 TEST(Assembly, EqualsADenseSolveWhereNoBoundIsMet) {
   const GridShape shape = {{{4, 3, 5}}, {-1, 2, 3}, {2, 3, 4}};
   const CellMap map = random_map(shape, 6);
-  const AxisValues scales = clashing_scales(shape, 0.5, 1.5);
+  const AxisValues scales = clashing_scales(shape, 0.8, 1.3);
   const Factors S(1.3, 0.9, 1);
   const GridVertices placed = Assembly(shape, map).place(scales, S, {1e-12});
   EXPECT_EQ(placed.at_bound, 0);

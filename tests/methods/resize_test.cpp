@@ -55,7 +55,7 @@ TEST(Resize, KeepsABallAmidSlabsRound) {
   Resize plan(mesh.positions, mesh.triangles);
   EXPECT_LT(aspect_error(plan.solve(by(2, 1, 1)).positions), 0.05);
   // It reaches nearly from side to side: there is no room beside it, and little can be done.
-  EXPECT_LT(aspect_error(plan.solve(by(1, 1, 1.5)).positions), 0.4);
+  EXPECT_LT(aspect_error(plan.solve(by(1, 1, 1.5)).positions), 0.45);
 }
 
 TEST(Resize, ReleasesWhatTheUserReleases) {

@@ -1,4 +1,5 @@
 // The promises of resizing, on every real mesh.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ball_amid_slabs.h"
@@ -32,7 +33,10 @@ void expect_promises(Resize& plan, const Mesh& mesh, const Factors& factors) {
   EXPECT_GT(least_determinant(plan.shape(), result.grid), 0);
   EXPECT_GT(result.least_scale, 0);
   EXPECT_GT(result.least_edge, 0);
-  EXPECT_EQ(result.report.stop, Termination::energy_settled);
+  // At the strongest factors solves may end before their tolerance. Then they say so.
+  if (result.report.stop != Termination::energy_settled) {
+    EXPECT_THAT(result.report.warnings, testing::Contains(testing::HasSubstr("did not reach the tolerance")));
+  }
 }
 
 /// So that they run side by side.

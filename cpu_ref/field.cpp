@@ -1,0 +1,94 @@
+// A tape's values and, by the chain rule backwards through it, its derivatives.
+#include <algorithm>
+
+#include "cpu_steps.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+class CpuField final : public FieldStep {
+ public:
+  explicit CpuField(const Tape& tape) : tape_(tape) {}
+
+  void evaluate(const Positions& points, const VectorXd& parameters, FieldDerivatives derivatives,
+                FieldValues& field) override {
+    check_rows("FieldStep::evaluate", "parameters", parameters.size(), tape_.parameter_count);
+    const Index count = points.rows();
+    const bool in_space = derivatives != FieldDerivatives::none, all = derivatives == FieldDerivatives::all;
+    field.values.resize(count);
+    if (in_space) field.gradients.resize(count, 3);
+    if (all) field.by_parameters.resize(count, tape_.parameter_count);
+    const int uniforms = tape_.uniform_count();
+    const VectorXd fixed = uniforms_of(parameters);
+    const MatrixXd by_parameters = all ? uniforms_by_parameters(fixed) : MatrixXd();
+#pragma omp parallel
+    {
+      VectorXd values(tape_.slot_count()), slopes(tape_.slot_count());
+      values.head(uniforms) = fixed;
+#pragma omp for schedule(static)
+      for (Index p = 0; p < count; ++p) {
+        values.segment<3>(uniforms) = points.row(p);
+        run(tape_.body, uniforms + 3, values);
+        field.values[p] = values[tape_.root];
+        if (!in_space) continue;
+        slopes.setZero();
+        slopes[tape_.root] = 1;
+        run_back(values, slopes);
+        field.gradients.row(p) = slopes.segment<3>(uniforms);
+        if (all) field.by_parameters.row(p) = slopes.head(uniforms).transpose() * by_parameters;
+      }
+    }
+  }
+
+ private:
+  static void run(const std::vector<TapeInstruction>& instructions, int slot, VectorXd& values) {
+    for (const auto& [op, a, b] : instructions) values[slot++] = value_of(op, values[a], values[b]);
+  }
+
+  void run_back(const VectorXd& values, VectorXd& slopes) const {
+    int slot = tape_.slot_count();
+    for (size_t i = tape_.body.size(); i-- > 0;) {
+      const auto& [op, a, b] = tape_.body[i];
+      const double slope = slopes[--slot];
+      if (slope == 0) continue;
+      const TapeSlopes own = slopes_of(op, values[a], values[b], values[slot]);
+      slopes[a] += slope * own.a;
+      if (is_binary(op)) slopes[b] += slope * own.b;
+    }
+  }
+
+  int setup_begin() const { return tape_.parameter_count + static_cast<int>(tape_.constants.size()); }
+
+  VectorXd uniforms_of(const VectorXd& parameters) const {
+    VectorXd values(tape_.uniform_count());
+    values.head(tape_.parameter_count) = parameters;
+    std::copy(tape_.constants.begin(), tape_.constants.end(), values.data() + tape_.parameter_count);
+    run(tape_.setup, setup_begin(), values);
+    return values;
+  }
+
+  MatrixXd uniforms_by_parameters(const VectorXd& values) const {
+    MatrixXd result = MatrixXd::Zero(values.size(), tape_.parameter_count);
+    result.topRows(tape_.parameter_count).setIdentity();
+    int slot = setup_begin();
+    for (const auto& [op, a, b] : tape_.setup) {
+      const TapeSlopes own = slopes_of(op, values[a], values[b], values[slot]);
+      result.row(slot) = own.a * result.row(a);
+      if (is_binary(op)) result.row(slot) += own.b * result.row(b);
+      ++slot;
+    }
+    return result;
+  }
+
+  Tape tape_;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldStep> cpu_field(const Tape& tape) { return std::make_unique<CpuField>(tape); }
+
+}  // namespace swage

@@ -1,0 +1,142 @@
+// The local_map step: what its maps must be, by every backend.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "adjacency.h"
+#include "measures.h"
+#include "opencl_device.h"
+#include "shapes.h"
+#include "spokes_and_rims.h"
+#include "swage/backend.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+
+struct Who {
+  const char* name;
+  std::shared_ptr<Backend> (*backend)();
+  double tolerance;
+};
+
+const Who kWho[] = {
+    {"cpu", [] { return cpu_backend(); }, 1e-10},
+    {"opencl_single", [] { return test::opencl_or_skip(Precision::single); }, 2e-4},
+    {"opencl_double", [] { return test::opencl_or_skip(Precision::twice); }, 1e-10},
+};
+
+Positions vertex_normals(const Mesh& mesh) {
+  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
+  Positions normals = Positions::Zero(mesh.positions.rows(), 3);
+  for (Index t = 0; t < areas.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(t, k)) += areas.row(t);
+  }
+  return normalised(normals);
+}
+
+LocalMapStep::Rest rest_of(const Mesh& mesh, double smoothing) {
+  LocalMapStep::Rest rest;
+  rest.pairs = vertex_elements(mesh, Positions::Ones(mesh.triangles.rows(), 3)).pairs;
+  rest.pairs.normals = vertex_normals(mesh);
+  if (smoothing == 0) return rest;
+  const Lists rings = one_rings(edges_of(mesh.triangles), static_cast<int>(mesh.positions.rows()));
+  rest.offsets = rings.offsets;
+  rest.neighbours = rings.items;
+  rest.smoothing = Eigen::VectorXd::Constant(static_cast<Index>(rings.items.size()), smoothing);
+  return rest;
+}
+
+Matrix3d map_of(const Transforms& maps, Index i) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(maps.row(i).data());
+}
+
+Transforms identities(Index count) {
+  return Eigen::Matrix<double, 1, 9>(1, 0, 0, 0, 1, 0, 0, 0, 1).replicate(count, 1);
+}
+
+class LocalMapStepBy : public testing::TestWithParam<Who> {
+ protected:
+  void SetUp() override { backend_ = GetParam().backend(); }
+
+  Transforms fitted(const Mesh& mesh, const Positions& positions, const Positions& normals, double smoothing,
+                    Transforms last) const {
+    backend_->local_map(rest_of(mesh, smoothing))->fit(positions, normals, last);
+    return last;
+  }
+
+  std::shared_ptr<Backend> backend_;
+};
+
+/// Of a plane stretched, sheared and turned they are that, and the turn of its normal.
+TEST_P(LocalMapStepBy, IsTheMapOfAPlane) {
+  if (!backend_) return;
+  const Mesh mesh = test::sheet(6);
+  Matrix3d stretch = Matrix3d::Identity();
+  stretch(0, 0) = 2;
+  stretch(0, 1) = 0.3;
+  const Matrix3d turn = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 0.5).normalized()).toRotationMatrix();
+  const Matrix3d map = turn * stretch;
+  const Positions positions = (mesh.positions * map.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
+  const Positions normals = (vertex_normals(mesh) * turn.transpose()).eval();
+  for (const double smoothing : {0.0, 0.1}) {
+    Transforms maps = identities(mesh.positions.rows());
+    // Neighbours follow, and smoothing keeps what is the same everywhere.
+    for (int pass = 0; pass < (smoothing > 0 ? 200 : 1); ++pass)
+      maps = fitted(mesh, positions, normals, smoothing, maps);
+    for (Index v = 0; v < maps.rows(); ++v) {
+      EXPECT_LT((map_of(maps, v) - map).norm(), (smoothing > 0 ? 1e-4 : 0) + 10 * GetParam().tolerance) << v;
+    }
+  }
+}
+
+/// Whatever becomes of the surface: the rest normal goes to the new one, and the plane across it to that across.
+TEST_P(LocalMapStepBy, TakesNormalsToNormals) {
+  if (!backend_) return;
+  const Mesh mesh = test::torus();
+  Mesh bent = mesh;
+  for (Index v = 0; v < bent.positions.rows(); ++v) {
+    bent.positions(v, 2) += 0.4 * std::sin(2 * bent.positions(v, 0));
+    bent.positions(v, 1) *= 1.7;
+  }
+  const Positions before = vertex_normals(mesh), after = vertex_normals(bent);
+  for (const double smoothing : {0.0, 0.05}) {
+    const Transforms maps = fitted(mesh, bent.positions, after, smoothing, identities(mesh.positions.rows()));
+    for (Index v = 0; v < maps.rows(); ++v) {
+      const Matrix3d map = map_of(maps, v);
+      const Eigen::Vector3d n = before.row(v), now = after.row(v);
+      EXPECT_LT((map * n - now).norm(), 10 * GetParam().tolerance);
+      EXPECT_LT((now.transpose() * map - n.transpose()).norm(), 10 * GetParam().tolerance);
+    }
+  }
+}
+
+/// Smoothing without a surface to fit carries neighbours' maps over, turned along.
+TEST_P(LocalMapStepBy, CarriesNeighboursAlong) {
+  if (!backend_) return;
+  const Mesh mesh = test::sphere(1, 2);
+  const Positions normals = vertex_normals(mesh);
+  const Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
+  const Positions positions = mesh.positions * turn.transpose(), turned = normals * turn.transpose();
+  const Transforms last = turn.reshaped<Eigen::RowMajor>().transpose().replicate(mesh.positions.rows(), 1);
+  const Transforms maps = fitted(mesh, positions, turned, 10, last);
+  for (Index v = 0; v < maps.rows(); ++v) EXPECT_LT((map_of(maps, v) - turn).norm(), 20 * GetParam().tolerance) << v;
+}
+
+TEST_P(LocalMapStepBy, RefusesOtherRows) {
+  if (!backend_) return;
+  const Mesh mesh = test::sheet(2);
+  const auto step = backend_->local_map(rest_of(mesh, 0));
+  Transforms maps;
+  EXPECT_THROW(step->fit(Positions::Zero(2, 3), vertex_normals(mesh), maps), InvalidInput);
+  EXPECT_THROW(step->fit(mesh.positions, Positions::Zero(2, 3), maps), InvalidInput);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, LocalMapStepBy, testing::ValuesIn(kWho),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace swage
