@@ -180,7 +180,7 @@ class CpuCarry final : public CarryStep {
 
   void count_cells(const GridShape& shape, Slice triangles, Eigen::VectorXi& counts) override {
     counts.resize(triangles.count());
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 16)
     for (Index i = 0; i < triangles.count(); ++i) {
       counts[i] = static_cast<int>(touched(shape, triangles.first + i).size());
     }
@@ -192,7 +192,7 @@ class CpuCarry final : public CarryStep {
     std::vector<Index> firsts(static_cast<size_t>(counts.size()) + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), firsts.begin() + 1, [](Index a, Index b) { return a + b; });
     cells.resize(firsts.back());
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 16)
     for (Index i = 0; i < triangles.count(); ++i) {
       const std::vector<int> found = touched(shape, triangles.first + i);
       std::copy(found.begin(), found.end(), cells.begin() + firsts[static_cast<size_t>(i)]);
