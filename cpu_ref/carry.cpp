@@ -50,7 +50,7 @@ RowVector3d mean_slippage(const CarryStep::Rest& rest, Index triangle) {
   const Mesh& mesh = *rest.mesh;
   const Matrix3d corners = corners_of(mesh, triangle);
   const RowVector3d normal = normal_of(corners);
-  if (normal.isZero(0)) return normal;
+  if (normal.isZero(0)) return RowVector3d::Zero();
   const Eigen::Vector3d lengths = sides_of(corners).rowwise().norm();
   RowVector3d sum = RowVector3d::Zero();
   double weights = 0;
@@ -96,7 +96,17 @@ Array3i cells_at(const GridShape& shape, const Array3d& place) {
 class Touch {
  public:
   Touch(const GridShape& shape, const Matrix3d& points, double margin)
-      : shape_(shape), corners_(in_cells(shape, points)), sides_(sides_of(corners_)), margin_(margin) {}
+      : shape_(shape), corners_(in_cells(shape, points)), margin_(margin) {
+    const Matrix3d sides = sides_of(corners_);
+    axes_.row(0) = sides.row(0).cross(sides.row(1));
+    for (int u = 0; u < 3; ++u) {
+      axes_.row(1 + u) = RowVector3d::Unit(u);
+      for (int k = 0; k < 3; ++k) axes_.row(4 + 3 * u + k) = RowVector3d::Unit(u).cross(sides.row(k));
+    }
+    const Eigen::Matrix<double, 13, 3> at = axes_ * corners_.transpose();
+    low_ = at.rowwise().minCoeff();
+    high_ = at.rowwise().maxCoeff();
+  }
 
   /// Ascending.
   std::vector<int> cells() {
@@ -121,29 +131,19 @@ class Touch {
     add(high);
   }
 
-  /// Separating axes: the faces' normals, the triangle's, and the products of their edges.
   bool meets(const Block& block) const {
-    const RowVector3d half = (0.5 * block.counts().cast<double>() + margin_).matrix().transpose();
-    const RowVector3d middle = (0.5 * (block.first + block.end).cast<double>()).matrix().transpose();
-    const Matrix3d corners = corners_.rowwise() - middle;
-    const auto meet_along = [&](const RowVector3d& axis) {
-      const Eigen::Vector3d at = corners * axis.transpose();
-      const double reach = half.dot(axis.cwiseAbs());
-      return at.minCoeff() <= reach && at.maxCoeff() >= -reach;
-    };
-    if (!meet_along(sides_.row(0).cross(sides_.row(1)))) return false;
-    for (int u = 0; u < 3; ++u) {
-      if (!meet_along(RowVector3d::Unit(u))) return false;
-      for (int k = 0; k < 3; ++k) {
-        if (!meet_along(RowVector3d::Unit(u).cross(sides_.row(k)))) return false;
-      }
-    }
-    return true;
+    const Eigen::Vector3d half = 0.5 * block.counts().cast<double>() + margin_;
+    const Eigen::Vector3d middle = 0.5 * (block.first + block.end).cast<double>();
+    const Eigen::Vector<double, 13> at = axes_ * middle, reach = axes_.cwiseAbs() * half;
+    return ((low_ - at).array() <= reach.array()).all() && ((high_ - at).array() >= -reach.array()).all();
   }
 
   const GridShape& shape_;
-  Matrix3d corners_, sides_;
+  Matrix3d corners_;
   double margin_;
+  // Separating axes, the triangle's normal, the cells', and the products of their edges; and the triangle along them.
+  Eigen::Matrix<double, 13, 3> axes_;
+  Eigen::Vector<double, 13> low_, high_;
   std::vector<int> cells_;
 };
 
@@ -180,7 +180,7 @@ class CpuCarry final : public CarryStep {
 
   void count_cells(const GridShape& shape, Slice triangles, Eigen::VectorXi& counts) override {
     counts.resize(triangles.count());
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 16)
     for (Index i = 0; i < triangles.count(); ++i) {
       counts[i] = static_cast<int>(touched(shape, triangles.first + i).size());
     }
@@ -192,7 +192,7 @@ class CpuCarry final : public CarryStep {
     std::vector<Index> firsts(static_cast<size_t>(counts.size()) + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), firsts.begin() + 1, [](Index a, Index b) { return a + b; });
     cells.resize(firsts.back());
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 16)
     for (Index i = 0; i < triangles.count(); ++i) {
       const std::vector<int> found = touched(shape, triangles.first + i);
       std::copy(found.begin(), found.end(), cells.begin() + firsts[static_cast<size_t>(i)]);

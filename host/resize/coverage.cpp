@@ -8,7 +8,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kTriangles = 1 << 19;  // Asked for at once.
-constexpr Index kCells = 1 << 24;      // The same, but for a triangle alone.
+constexpr Index kCells = 1 << 21;      // The same, but for a triangle alone.
 
 /// As many of the first counts as list no more cells than are asked for at once.
 Index few_enough(const Eigen::Ref<const Eigen::VectorXi>& counts) {
