@@ -194,7 +194,7 @@ Mesh template_mesh(const Template& of, const Eigen::VectorXd& parameters, const 
                    const ProgressFn& progress) {
   check_arguments(of, parameters, options);
   const std::shared_ptr<Backend> backend = options.backend ? options.backend : cpu_backend();
-  const std::unique_ptr<FieldStep> step = backend->field(of.tape());
+  const std::unique_ptr<FieldStep> step = of.field(*backend);
   const FieldAt field{*step, parameters};
   try {
     Stages stages(progress, 1, 1);

@@ -221,7 +221,7 @@ class Fit {
         mesh_(mesh),
         options_(options),
         stages_(stages),
-        step_((options.backend ? options.backend : cpu_backend())->field(of.tape())) {}
+        step_(of.field(*(options.backend ? options.backend : cpu_backend()))) {}
 
   TemplateFit run() {
     stages_.begin("samples", 0);

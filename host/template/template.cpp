@@ -9,6 +9,7 @@
 
 #include "expression.h"
 #include "fields.h"
+#include "function_field.h"
 #include "nodes.h"
 #include "swage/error.h"
 
@@ -20,6 +21,7 @@ struct Template::Content {
   char up = 'y';
   std::vector<TemplateParameter> parameters;
   Tape tape;
+  FieldFunction function;  // In place of the document and its tape.
 };
 
 namespace {
@@ -96,6 +98,10 @@ Shape once_at_each_place(Shape shape) {
     if (known->values.size() == kMostPlaces) throw TapeTooLong();
     return known->values.emplace(place, known->shape(p)).first->second;
   };
+}
+
+void refuse_function(const FieldFunction& function, const std::string& name, const std::string& why) {
+  if (function) throw InvalidInput("template " + name + ": is a function, and " + why);
 }
 
 }  // namespace
@@ -215,8 +221,21 @@ const std::string& Template::name() const { return content_->name; }
 const std::string& Template::description() const { return content_->description; }
 char Template::up() const { return content_->up; }
 const std::vector<TemplateParameter>& Template::parameters() const { return content_->parameters; }
-const Tape& Template::tape() const { return content_->tape; }
-std::string Template::text() const { return content_->document.dump(2) + "\n"; }
+
+const Tape& Template::tape() const {
+  refuse_function(content_->function, name(), "has no tape");
+  return content_->tape;
+}
+
+std::string Template::text() const {
+  refuse_function(content_->function, name(), "has no text");
+  return content_->document.dump(2) + "\n";
+}
+
+std::unique_ptr<FieldStep> Template::field(const Backend& backend) const {
+  if (content_->function) return std::make_unique<FunctionField>(content_->function, parameters());
+  return backend.field(content_->tape);
+}
 
 int Template::parameter(std::string_view name) const {
   std::vector<std::string> names;
@@ -232,6 +251,28 @@ Eigen::VectorXd Template::defaults() const {
   Eigen::VectorXd values(static_cast<Eigen::Index>(parameters().size()));
   for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = parameters()[static_cast<std::size_t>(i)].value;
   return values;
+}
+
+Template template_of(const std::string& name, const std::vector<TemplateParameter>& parameters, FieldFunction function,
+                     char up) {
+  const std::string caller = "template_of: ";
+  if (!function) throw InvalidInput(caller + "function: there is none");
+  if (up != 'x' && up != 'y' && up != 'z') throw InvalidInput(caller + "up: not x, y or z");
+  std::set<std::string> names;
+  for (const TemplateParameter& p : parameters) {
+    const std::string at = caller + "parameters: '" + p.name + "': ";
+    if (!is_parameter_name(p.name)) throw InvalidInput(at + "no name");
+    if (!names.insert(p.name).second) throw InvalidInput(at + "there twice");
+    if (!(p.least < p.most && p.value >= p.least && p.value <= p.most && std::isfinite(p.most - p.least))) {
+      throw InvalidInput(at + "its value is not within its bounds");
+    }
+  }
+  auto content = std::make_shared<Template::Content>();
+  content->name = name;
+  content->up = up;
+  content->parameters = parameters;
+  content->function = std::move(function);
+  return Template(std::move(content));
 }
 
 Template parse_template(std::string_view text, const std::string& name) { return TemplateReader(text, name).read(); }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,9 +25,14 @@ struct TemplateParameter {
   double least = 0, most = 0;  ///< What it may be, the first below the second.
 };
 
-/// A template as its file describes it: a graph of nodes whose numbers are parameters, expressions of them, or
-/// constants. The field is negative inside; it is continuous in space and parameters, and neither a true distance nor
-/// differentiable everywhere.
+/// A field at points (#P × 3), with parameters: #P values, negative inside. Continuous in both. Called from one thread
+/// at a time.
+using FieldFunction =
+    std::function<void(const Positions& points, const Eigen::VectorXd& parameters, Eigen::VectorXd& values)>;
+
+/// A field of space with parameters, as a template's file describes it: a graph of nodes whose numbers are parameters,
+/// expressions of them, or constants; or any function of a point. The field is negative inside; it is continuous in
+/// space and parameters, and neither a true distance nor differentiable everywhere.
 class Template {
  public:
   Template(const Template&);
@@ -42,12 +48,17 @@ class Template {
   /// Throws InvalidInput, naming those that there are, where none is called so.
   int parameter(std::string_view name) const;
   Eigen::VectorXd defaults() const;
+  /// Evaluates the field. Of a function derivatives are central differences, over 1e-5 units of space and of a
+  /// parameter's range.
+  std::unique_ptr<FieldStep> field(const Backend& backend) const;
+  /// Throws InvalidInput where the field is a function.
   const Tape& tape() const;
-  /// The file's content: reading it again gives the same template.
+  /// The file's content: reading it again gives the same template. Throws InvalidInput where the field is a function.
   std::string text() const;
 
  private:
   friend class TemplateReader;
+  friend Template template_of(const std::string&, const std::vector<TemplateParameter>&, FieldFunction, char);
   struct Content;
   explicit Template(std::shared_ptr<const Content> content);
   std::shared_ptr<const Content> content_;
@@ -59,6 +70,13 @@ class Template {
 Template read_template(const std::filesystem::path& path);
 /// The same of a text; errors call it by the name.
 Template parse_template(std::string_view text, const std::string& name);
+
+/// Of any function: a body model's distance, a mesh's.
+///
+/// Throws InvalidInput where there is no function, a parameter's name is none or there twice, its value is not within
+/// its bounds, or `up` is not x, y or z.
+Template template_of(const std::string& name, const std::vector<TemplateParameter>& parameters, FieldFunction function,
+                     char up = 'y');
 
 /// Those that come with the library: "box", "couch", ...
 std::vector<std::string> shipped_templates();
