@@ -7,7 +7,6 @@ namespace swage {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 class CpuField final : public FieldStep {
@@ -24,7 +23,6 @@ class CpuField final : public FieldStep {
     if (all) field.by_parameters.resize(count, tape_.parameter_count);
     const int uniforms = tape_.uniform_count();
     const VectorXd fixed = uniforms_of(parameters);
-    const MatrixXd by_parameters = all ? uniforms_by_parameters(fixed) : MatrixXd();
 #pragma omp parallel
     {
       VectorXd values(tape_.slot_count()), slopes(tape_.slot_count());
@@ -37,9 +35,11 @@ class CpuField final : public FieldStep {
         if (!in_space) continue;
         slopes.setZero();
         slopes[tape_.root] = 1;
-        run_back(values, slopes);
+        run_back(tape_.body, tape_.slot_count(), values, slopes);
         field.gradients.row(p) = slopes.segment<3>(uniforms);
-        if (all) field.by_parameters.row(p) = slopes.head(uniforms).transpose() * by_parameters;
+        if (!all) continue;
+        run_back(tape_.setup, uniforms, values, slopes);
+        field.by_parameters.row(p) = slopes.head(tape_.parameter_count);
       }
     }
   }
@@ -49,10 +49,11 @@ class CpuField final : public FieldStep {
     for (const auto& [op, a, b] : instructions) values[slot++] = value_of(op, values[a], values[b]);
   }
 
-  void run_back(const VectorXd& values, VectorXd& slopes) const {
-    int slot = tape_.slot_count();
-    for (size_t i = tape_.body.size(); i-- > 0;) {
-      const auto& [op, a, b] = tape_.body[i];
+  /// Of instructions whose last slot is before `slot`.
+  static void run_back(const std::vector<TapeInstruction>& instructions, int slot, const VectorXd& values,
+                       VectorXd& slopes) {
+    for (size_t i = instructions.size(); i-- > 0;) {
+      const auto& [op, a, b] = instructions[i];
       const double slope = slopes[--slot];
       if (slope == 0) continue;
       const TapeSlopes own = slopes_of(op, values[a], values[b], values[slot]);
@@ -61,27 +62,12 @@ class CpuField final : public FieldStep {
     }
   }
 
-  int setup_begin() const { return tape_.parameter_count + static_cast<int>(tape_.constants.size()); }
-
   VectorXd uniforms_of(const VectorXd& parameters) const {
     VectorXd values(tape_.uniform_count());
     values.head(tape_.parameter_count) = parameters;
     std::copy(tape_.constants.begin(), tape_.constants.end(), values.data() + tape_.parameter_count);
-    run(tape_.setup, setup_begin(), values);
+    run(tape_.setup, tape_.parameter_count + static_cast<int>(tape_.constants.size()), values);
     return values;
-  }
-
-  MatrixXd uniforms_by_parameters(const VectorXd& values) const {
-    MatrixXd result = MatrixXd::Zero(values.size(), tape_.parameter_count);
-    result.topRows(tape_.parameter_count).setIdentity();
-    int slot = setup_begin();
-    for (const auto& [op, a, b] : tape_.setup) {
-      const TapeSlopes own = slopes_of(op, values[a], values[b], values[slot]);
-      result.row(slot) = own.a * result.row(a);
-      if (is_binary(op)) result.row(slot) += own.b * result.row(b);
-      ++slot;
-    }
-    return result;
   }
 
   Tape tape_;

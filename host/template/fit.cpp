@@ -27,6 +27,7 @@ using Eigen::VectorXd;
 constexpr double kOnePlace = 1e-9;  // Of the box: vertices nearer are one.
 constexpr double kOffset = 0.15;    // How far the pose's offset may go, of D.
 constexpr double kAtBound = 1e-4;   // Of a parameter's range.
+constexpr int kEvaluations = 2;     // Of an iteration, on average.
 constexpr double kUnsigned = 0.01;  // Less open area than this part is not told of.
 
 void check_options(const FitOptions& options) {
@@ -160,7 +161,9 @@ Minimum minimise(Objective& objective, const VectorXd& start, int iterations) {
   parameters.past = 5;
   parameters.delta = 1e-7;
   Minimum best;
+  int evaluations = 0;
   const auto evaluate = [&](const VectorXd& x, VectorXd& gradient) {
+    if (++evaluations > kEvaluations * iterations) throw std::runtime_error("enough");
     const double energy = objective(x, gradient);
     if (std::isfinite(energy) && energy < best.energy) {
       best.x = x;
@@ -213,6 +216,13 @@ Positions TemplatePose::back(const PositionsRef& positions) const {
 }
 
 namespace {
+
+/// Vertices of no triangle may lie anywhere.
+Positions used(const PositionsRef& positions, const TrianglesRef& triangles) {
+  Positions corners(3 * triangles.rows(), 3);
+  for (Index i = 0; i < corners.rows(); ++i) corners.row(i) = positions.row(triangles(i / 3, i % 3));
+  return corners;
+}
 
 class Fit {
  public:
@@ -315,7 +325,7 @@ TemplateFit fit_template(const Template& of, const PositionsRef& positions, cons
                          const FitOptions& options, const ProgressFn& progress) {
   check(positions, triangles);
   check_options(options);
-  const UnitBox box = unit_box(positions);
+  const UnitBox box = unit_box(used(positions, triangles));
   const Surface surface = surface_of({box.into(positions), triangles}, kOnePlace);
   if (area_vectors(surface.mesh.positions, surface.mesh.triangles).isZero(0)) {
     throw InvalidInput("fit_template: triangles: none has an area");
