@@ -1,6 +1,7 @@
 // Templates fitted to every real mesh of their kinds: measures, and pictures beside the fitted surface.
 //
-//   template_corpus FOLDER [NAME...]   writes there template_corpus.json and a picture of each kind, of the meshes whose
+//   template_corpus FOLDER [NAME...]   writes there template_corpus.json and a picture of each kind, of the meshes
+//   whose
 //                                      file's name contains one of those named, or of all.
 #include <algorithm>
 #include <cstdio>
@@ -58,9 +59,8 @@ Fitted fit(const test::ListedMesh& listed, const std::string& kind) {
   Fitted fitted{listed.path.stem().string(), kind, {}, {}};
   std::vector<std::string> bounds;
   for (const int p : fit.at_bound) bounds.push_back(of.parameters()[static_cast<size_t>(p)].name);
-  fitted.json = {{"mesh", listed.name},       {"template", kind},
-                 {"rms", fit.residual},       {"largest", fit.largest},
-                 {"cpu_seconds", seconds},    {"seconds", fit.report.seconds.at("solve")},
+  fitted.json = {{"mesh", listed.name},         {"template", kind},       {"rms", fit.residual},
+                 {"largest", fit.largest},      {"cpu_seconds", seconds}, {"seconds", fit.report.seconds.at("solve")},
                  {"passes", fit.report.passes}, {"at_bound", bounds}};
   for (size_t p = 0; p < of.parameters().size(); ++p) {
     fitted.json["parameters"][of.parameters()[p].name] = fit.parameters[static_cast<Eigen::Index>(p)];
@@ -101,9 +101,8 @@ void write_sheets(const std::filesystem::path& folder, const std::vector<Fitted>
 }
 
 bool is_asked(const std::string& name, const std::vector<std::string>& names) {
-  return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& part) {
-           return name.find(part) != std::string::npos;
-         });
+  return names.empty() || std::any_of(names.begin(), names.end(),
+                                      [&](const std::string& part) { return name.find(part) != std::string::npos; });
 }
 
 void run(const std::filesystem::path& folder, const std::vector<std::string>& names) {

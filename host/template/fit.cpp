@@ -1,15 +1,15 @@
 // Fits templates to meshes.
-#include <LBFGSB.h>
-
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 
 #include "measures.h"
+#include "objective.h"
+#include "pose.h"
 #include "preparation.h"
 #include "samples.h"
 #include "stopwatch.h"
@@ -21,16 +21,22 @@ namespace swage {
 namespace {
 
 using Eigen::Index;
-using Eigen::RowVector3d;
 using Eigen::VectorXd;
 
 constexpr double kOnePlace = 1e-9;  // Of the box: vertices nearer are one.
-constexpr double kOffset = 0.15;    // How far the pose's offset may go, of D.
 constexpr double kAtBound = 1e-4;   // Of a parameter's range.
-constexpr int kEvaluations = 2;     // Of an iteration, on average.
 constexpr double kUnsigned = 0.01;  // Less open area than this part is not told of.
+constexpr double kTurn = 1e-6;
+constexpr double kFlat = 0.2;   // Of the mean steepness: the least that counts.
+constexpr double kFew = 0.125;  // Of the samples, for attempts,
+constexpr int kLeastFew = 400;  // or so many.
+constexpr int kFirstIterations = 40;
+constexpr size_t kGuesses = 24;  // With the start itself.
+constexpr size_t kGuessed = 6;   // Of them, in all directions, are followed.
+constexpr size_t kFinalists = 2;
+constexpr int kBoxResolution = 32;
 
-void check_options(const FitOptions& options) {
+void check_options(const Template& of, const FitOptions& options) {
   const auto refuse_unless = [](bool fits, const std::string& what) {
     if (!fits) throw InvalidInput("fit_template: options." + what);
   };
@@ -42,186 +48,38 @@ void check_options(const FitOptions& options) {
   refuse_unless(options.sigmas >= 1 && options.sigmas <= 20, "sigmas: not between 1 and 20");
   refuse_unless(options.least_sigma > 0 && options.least_sigma <= 1, "least_sigma: not in (0, 1]");
   refuse_unless(options.iterations >= 1, "iterations: below 1");
-  refuse_unless(options.up == 'x' || options.up == 'y' || options.up == 'z', "up: not x, y or z");
-}
-
-/// What the template is compared with, in the mesh's unit box.
-struct Samples {
-  Positions surface;
-  VolumeSamples volume;
-};
-
-/// The objective, of the parameters as parts of their ranges and the pose's offset in units of `reach`.
-class Objective {
- public:
-  Objective(const Template& of, const Samples& samples, const TemplatePose& pose, double reach, double alpha,
-            FieldStep& step, const Poll& poll)
-      : template_(of),
-        samples_(samples),
-        pose_(pose),
-        reach_(reach),
-        alpha_(alpha),
-        step_(step),
-        poll_(poll),
-        surface_(pose.into(samples.surface)),
-        volume_(pose.into(samples.volume.points)),
-        distances_(samples.volume.distances * pose.scale) {}
-
-  Index size() const { return static_cast<Index>(template_.parameters().size()) + 3; }
-
-  VectorXd start() const {
-    VectorXd x = VectorXd::Constant(size(), 0.5);
-    const auto& parameters = template_.parameters();
-    for (size_t i = 0; i < parameters.size(); ++i) {
-      x[static_cast<Index>(i)] =
-          (parameters[i].value - parameters[i].least) / (parameters[i].most - parameters[i].least);
-    }
-    return x;
+  refuse_unless(options.up == 0 || (options.up >= 'x' && options.up <= 'z'), "up: not x, y, z or 0");
+  if (options.start.size() > 0) {
+    const size_t count = of.parameters().size();
+    refuse_unless(static_cast<size_t>(options.start.size()) == count && options.start.allFinite(),
+                  "start: not " + std::to_string(count) + " finite numbers, the template's parameters");
   }
-
-  VectorXd parameters_at(const VectorXd& x) const {
-    VectorXd values(size() - 3);
-    for (Index i = 0; i < values.size(); ++i) {
-      const TemplateParameter& p = template_.parameters()[static_cast<size_t>(i)];
-      values[i] = std::clamp(p.least + x[i] * (p.most - p.least), p.least, p.most);
-    }
-    return values;
+  if (options.pose) {
+    const TemplatePose& pose = *options.pose;
+    const bool turns = (pose.rotation * pose.rotation.transpose()).isIdentity(kTurn) && pose.rotation.determinant() > 0;
+    refuse_unless(turns, "pose: its rotation is none");
+    refuse_unless(pose.scale > 0 && std::isfinite(pose.scale) && pose.offset.allFinite(),
+                  "pose: its scale is not above 0, or it is not finite");
   }
-
-  RowVector3d offset_at(const VectorXd& x) const {
-    return reach_ * (2 * x.tail<3>().transpose() - RowVector3d::Ones());
-  }
-
-  void set_sigma(double sigma) { sigma_ = sigma; }
-
-  /// As L-BFGS-B asks.
-  double operator()(const VectorXd& x, VectorXd& gradient) {
-    ask(poll_);
-    gradient.setZero(size());
-    const VectorXd parameters = parameters_at(x);
-    const RowVector3d offset = offset_at(x);
-    double energy =
-        add(surface_.rowwise() + offset, parameters, gradient, [](Index, double f) { return std::pair(f, 1.0); });
-    if (volume_.rows() > 0 && alpha_ > 0) {
-      energy += add(volume_.rowwise() + offset, parameters, gradient, [&](Index p, double f) {
-        const double d = distances_[p], weight = alpha_ * std::exp(-d * d / (sigma_ * sigma_));
-        const bool is_signed = samples_.volume.is_signed[static_cast<size_t>(p)] != 0;
-        return std::pair(is_signed || f >= 0 ? f - d : f + d, weight);
-      });
-    }
-    for (Index i = 0; i + 3 < size(); ++i) {
-      const TemplateParameter& p = template_.parameters()[static_cast<size_t>(i)];
-      gradient[i] *= p.most - p.least;
-    }
-    gradient.tail<3>() *= 2 * reach_;
-    return energy;
-  }
-
- private:
-  /// The mean of weight error², both by `error(point, f)`.
-  template <typename Error>
-  double add(const Positions& points, const VectorXd& parameters, VectorXd& gradient, const Error& error) {
-    step_.evaluate(points, parameters, FieldDerivatives::all, field_);
-    double energy = 0;
-    VectorXd slopes(points.rows());
-    for (Index p = 0; p < points.rows(); ++p) {
-      const auto [off, weight] = error(p, field_.values[p]);
-      energy += weight * off * off;
-      slopes[p] = 2 * weight * off;
-    }
-    const double count = static_cast<double>(points.rows());
-    gradient.head(size() - 3) += field_.by_parameters.transpose() * slopes / count;
-    gradient.tail<3>() += field_.gradients.transpose() * slopes / count;
-    return energy / count;
-  }
-
-  const Template& template_;
-  const Samples& samples_;
-  TemplatePose pose_;
-  double reach_, alpha_, sigma_ = 1;
-  FieldStep& step_;
-  const Poll& poll_;
-  Positions surface_, volume_;
-  VectorXd distances_;
-  FieldValues field_;
-};
-
-/// Where L-BFGS-B got, and the energy there. The best of all it saw, since its line search may give up.
-struct Minimum {
-  VectorXd x;
-  double energy = INFINITY;
-  int iterations = 0;
-};
-
-Minimum minimise(Objective& objective, const VectorXd& start, int iterations) {
-  LBFGSpp::LBFGSBParam<double> parameters;
-  parameters.max_iterations = iterations;
-  parameters.epsilon = 1e-9;
-  parameters.epsilon_rel = 1e-9;
-  parameters.past = 5;
-  parameters.delta = 1e-7;
-  Minimum best;
-  int evaluations = 0;
-  const auto evaluate = [&](const VectorXd& x, VectorXd& gradient) {
-    if (++evaluations > kEvaluations * iterations) throw std::runtime_error("enough");
-    const double energy = objective(x, gradient);
-    if (std::isfinite(energy) && energy < best.energy) {
-      best.x = x;
-      best.energy = energy;
-    }
-    return energy;
-  };
-  VectorXd x = start;
-  double energy = 0;
-  try {
-    LBFGSpp::LBFGSBSolver<double> solver(parameters);
-    best.iterations = solver.minimize(evaluate, x, energy, VectorXd::Zero(x.size()), VectorXd::Ones(x.size()));
-  } catch (const std::exception&) {
-    // The line search found nothing better: what was found counts.
-  }
-  if (best.x.size() == 0) best.x = start;
-  return best;
 }
-
-/// Turns that bring the mesh's up to the template's, and then by quarters about it.
-Eigen::Matrix3d turn_of(char from, char to, int quarters) {
-  const auto unit = [](char axis) -> Eigen::Vector3d { return Eigen::Vector3d::Unit(axis - 'x'); };
-  const Eigen::Quaterniond up = Eigen::Quaterniond::FromTwoVectors(unit(from), unit(to));
-  const Eigen::AngleAxisd about(quarters * std::numbers::pi / 2, unit(to));
-  return about.toRotationMatrix() * up.toRotationMatrix();
-}
-
-/// Brings the box of the points to that of the template: their middles, and along up their bottoms.
-TemplatePose aligned(const Positions& points, const Mesh& surface, char up, const Eigen::Matrix3d& rotation) {
-  TemplatePose pose;
-  pose.rotation = rotation;
-  const Positions turned = points * rotation.transpose();
-  const RowVector3d low = turned.colwise().minCoeff(), high = turned.colwise().maxCoeff();
-  const RowVector3d to_low = surface.positions.colwise().minCoeff(), to_high = surface.positions.colwise().maxCoeff();
-  pose.scale = (to_high - to_low).norm() / (high - low).norm();
-  pose.offset = 0.5 * (to_low + to_high) - pose.scale * 0.5 * (low + high);
-  const int u = up - 'x';
-  pose.offset[u] = to_low[u] - pose.scale * low[u];
-  return pose;
-}
-
-}  // namespace
-
-Positions TemplatePose::into(const PositionsRef& positions) const {
-  return (scale * (positions * rotation.transpose())).rowwise() + offset;
-}
-
-Positions TemplatePose::back(const PositionsRef& positions) const {
-  return (positions.rowwise() - offset) * rotation / scale;
-}
-
-namespace {
 
 /// Vertices of no triangle may lie anywhere.
 Positions used(const PositionsRef& positions, const TrianglesRef& triangles) {
   Positions corners(3 * triangles.rows(), 3);
   for (Index i = 0; i < corners.rows(); ++i) corners.row(i) = positions.row(triangles(i / 3, i % 3));
   return corners;
+}
+
+TemplatePose in_unit_box(TemplatePose pose, const UnitBox& box) {
+  pose.offset += pose.scale * (box.corner * pose.rotation.transpose());
+  pose.scale *= box.extent;
+  return pose;
+}
+
+TemplatePose in_mesh_units(TemplatePose pose, const UnitBox& box) {
+  pose.scale /= box.extent;
+  pose.offset -= pose.scale * (box.corner * pose.rotation.transpose());
+  return pose;
 }
 
 class Fit {
@@ -231,69 +89,140 @@ class Fit {
         mesh_(mesh),
         options_(options),
         stages_(stages),
-        step_(of.field(*(options.backend ? options.backend : cpu_backend()))) {}
+        step_(of.field(*(options.backend ? options.backend : cpu_backend()))),
+        diagonal_(box_diagonal(mesh.positions)) {}
 
   TemplateFit run() {
     stages_.begin("samples", 0);
     const SurfaceDistance distance(mesh_);
-    samples_ = {surface_samples(mesh_, options_.surface_samples, options_.seed),
-                volume_samples(mesh_, distance, options_.volume_samples, options_.seed + 1)};
-    stages_.begin("starts", 0.1);
-    Start best = best_start();
-    for (int s = 1; s < options_.sigmas; ++s) {
-      stages_.begin("fit", 0.4 + 0.6 * s / options_.sigmas);
-      best.objective->set_sigma(sigma(s));
-      const Minimum found = minimise(*best.objective, best.minimum.x, options_.iterations);
-      result_.report.passes += found.iterations;
-      best.minimum = found;
+    few_ = samples(distance, kFew);
+    all_ = samples(distance, 1);
+    std::vector<Attempt> attempts = first_attempts();
+    for (size_t i = 0; i < attempts.size(); ++i) {
+      stages_.begin("starts", 0.1 + 0.4 * static_cast<double>(i) / static_cast<double>(attempts.size()));
+      minimise_by(attempts[i], 0, kFirstIterations);
+      minimise_by(attempts[i], options_.sigmas - 1, kFirstIterations);
     }
-    finish(best, distance.closed_area());
+    keep_best(attempts, kFinalists);
+    for (size_t i = 0; i < attempts.size(); ++i) {
+      stages_.begin("fit", 0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(attempts.size()));
+      use(attempts[i], all_);
+      for (int s = 0; s < options_.sigmas; ++s) minimise_by(attempts[i], s, options_.iterations);
+    }
+    keep_best(attempts, 1);
+    finish(attempts[0], distance.closed_area());
     return std::move(result_);
   }
 
  private:
-  struct Start {
+  /// A place in the parameters' ranges from which a minimum is looked for.
+  struct Attempt {
     TemplatePose pose;
     std::unique_ptr<Objective> objective;
     Minimum minimum;
   };
 
-  double diagonal() const { return box_diagonal(mesh_.positions); }
+  FitSamples samples(const SurfaceDistance& distance, double part) const {
+    const auto of = [&](int count, int least) {
+      return std::min(count, std::max(least, static_cast<int>(std::lround(part * count))));
+    };
+    return {surface_samples(mesh_, of(options_.surface_samples, kLeastFew), options_.seed),
+            volume_samples(mesh_, distance, of(options_.volume_samples, kLeastFew), options_.seed + 1)};
+  }
+
   double sigma(int pass) const {
     const double part = options_.sigmas == 1 ? 1 : static_cast<double>(pass) / (options_.sigmas - 1);
-    return scale_ * diagonal() * std::pow(options_.least_sigma, part);
+    return std::pow(options_.least_sigma, part);
   }
 
-  /// After the first pass the best of the directions.
-  Start best_start() {
-    const Mesh surface = template_mesh(template_, template_.defaults(), {24, options_.backend});
-    Start best;
-    for (int quarters = 0; quarters < (options_.turns ? 4 : 1); ++quarters) {
-      Start start;
-      start.pose = aligned(mesh_.positions, surface, template_.up(), turn_of(options_.up, template_.up(), quarters));
-      scale_ = start.pose.scale;
-      start.objective = std::make_unique<Objective>(template_, samples_, start.pose, kOffset * scale_ * diagonal(),
-                                                    options_.alpha, *step_, stages_.poll());
-      for (int s = 0; s < options_.sigmas; s += options_.sigmas - 1) {
-        start.objective->set_sigma(sigma(s));
-        start.minimum = minimise(*start.objective, s == 0 ? start.objective->start() : start.minimum.x,
-                                 options_.iterations / 2 + 1);
-        result_.report.passes += start.minimum.iterations;
-        if (options_.sigmas == 1) break;
+  void minimise_by(Attempt& attempt, int pass, int iterations) {
+    attempt.objective->set_sigma(sigma(pass));
+    attempt.minimum = minimise(*attempt.objective, attempt.minimum.x, iterations);
+    result_.report.passes += attempt.minimum.iterations;
+  }
+
+  void use(Attempt& attempt, const FitSamples& samples) {
+    attempt.objective = std::make_unique<Objective>(template_, samples, attempt.pose, diagonal_, options_.alpha, *step_,
+                                                    stages_.poll());
+    if (options_.pose) attempt.objective->hold_offset();
+  }
+
+  static void keep_best(std::vector<Attempt>& attempts, size_t count) {
+    std::stable_sort(attempts.begin(), attempts.end(),
+                     [](const Attempt& a, const Attempt& b) { return a.minimum.energy < b.minimum.energy; });
+    if (attempts.size() > count) attempts.resize(count);
+  }
+
+  std::vector<Eigen::Matrix3d> turns() const {
+    std::vector<Eigen::Matrix3d> all;
+    for (const char up : options_.up == 0 ? std::string("yz") : std::string(1, options_.up)) {
+      for (int quarters = 0; quarters < (options_.turns ? 4 : 1); ++quarters) {
+        all.push_back(turn_of(up, template_.up(), quarters));
       }
-      if (start.minimum.energy < best.minimum.energy) best = std::move(start);
     }
-    return best;
+    return all;
   }
 
-  void finish(const Start& best, double closed_area) {
+  Attempt attempt(const VectorXd& parameters, const TemplatePose& pose) {
+    Attempt made;
+    made.pose = pose;
+    use(made, few_);
+    made.minimum.x = made.objective->place_of(parameters);
+    made.objective->set_sigma(1);
+    VectorXd gradient;
+    made.minimum.energy = (*made.objective)(made.minimum.x, gradient);
+    return made;
+  }
+
+  /// What to start with, and guesses about it.
+  std::vector<VectorXd> guesses() const {
+    std::vector<VectorXd> all{options_.start.size() > 0 ? options_.start : template_.defaults()};
+    std::mt19937 random(options_.seed);
+    const auto part = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    const size_t count = options_.start.size() > 0 ? 1 : kGuesses;
+    while (all.size() < count) {
+      VectorXd guess = all.front();
+      for (Index i = 0; i < guess.size(); ++i) {
+        const TemplateParameter& p = template_.parameters()[static_cast<size_t>(i)];
+        const double is_other = part(), by = part();
+        if (is_other < 0.5) guess[i] = std::clamp(guess[i] + (by - 0.5) * (p.most - p.least), p.least, p.most);
+      }
+      all.push_back(std::move(guess));
+    }
+    return all;
+  }
+
+  /// From the start in all directions, and from those guesses that are most like the mesh.
+  std::vector<Attempt> first_attempts() {
+    if (options_.pose) {
+      std::vector<Attempt> one;
+      one.push_back(attempt(guesses().front(), *options_.pose));
+      return one;
+    }
+    std::vector<Attempt> all, guessed;
+    for (const VectorXd& parameters : guesses()) {
+      const std::optional<Box> box = box_of(FieldAt{*step_, parameters}, kBoxResolution, stages_.poll());
+      if (!box) continue;
+      std::vector<Attempt>& list = all.empty() ? all : guessed;
+      for (const Eigen::Matrix3d& turn : turns()) {
+        list.push_back(attempt(parameters, aligned(mesh_.positions, *box, template_.up(), turn)));
+      }
+    }
+    if (all.empty()) throw Unsolvable("template " + template_.name() + ": there is no surface to begin with");
+    keep_best(guessed, kGuessed);
+    std::move(guessed.begin(), guessed.end(), std::back_inserter(all));
+    return all;
+  }
+
+  void finish(const Attempt& best, double closed_area) {
     result_.parameters = best.objective->parameters_at(best.minimum.x);
-    result_.pose = best.pose;
-    result_.pose.offset += best.objective->offset_at(best.minimum.x);
+    result_.pose = best.objective->pose_at(best.minimum.x);
     FieldValues field;
-    step_->evaluate(result_.pose.into(samples_.surface), result_.parameters, FieldDerivatives::in_space, field);
-    const Eigen::ArrayXd off = field.values.array().abs() / field.gradients.rowwise().norm().array().max(1e-9);
-    const double size = result_.pose.scale * diagonal();
+    step_->evaluate(result_.pose.into(all_.surface), result_.parameters, FieldDerivatives::in_space, field);
+    const Eigen::ArrayXd steepness = field.gradients.rowwise().norm();
+    // Where slopes of two sides cancel, a step along the slope goes nowhere.
+    const Eigen::ArrayXd off = field.values.array().abs() / steepness.max(kFlat * std::max(steepness.mean(), 1e-9));
+    const double size = result_.pose.scale * diagonal_;
     result_.residual = std::sqrt(off.square().mean()) / size;
     result_.largest = off.maxCoeff() / size;
     for (Index i = 0; i < result_.parameters.size(); ++i) {
@@ -314,8 +243,8 @@ class Fit {
   const FitOptions& options_;
   Stages& stages_;
   std::unique_ptr<FieldStep> step_;
-  Samples samples_;
-  double scale_ = 1;
+  double diagonal_;
+  FitSamples few_, all_;
   TemplateFit result_;
 };
 
@@ -324,25 +253,25 @@ class Fit {
 TemplateFit fit_template(const Template& of, const PositionsRef& positions, const TrianglesRef& triangles,
                          const FitOptions& options, const ProgressFn& progress) {
   check(positions, triangles);
-  check_options(options);
+  check_options(of, options);
   const UnitBox box = unit_box(used(positions, triangles));
   const Surface surface = surface_of({box.into(positions), triangles}, kOnePlace);
   if (area_vectors(surface.mesh.positions, surface.mesh.triangles).isZero(0)) {
     throw InvalidInput("fit_template: triangles: none has an area");
   }
+  FitOptions inner = options;
+  if (inner.pose) *inner.pose = in_unit_box(*inner.pose, box);
   TemplateFit fit;
   double seconds = 0;
   try {
     const Stopwatch watch(seconds);
     Stages stages(progress, 1, 1);
-    fit = Fit(of, surface.mesh, options, stages).run();
+    fit = Fit(of, surface.mesh, inner, stages).run();
   } catch (const Cancelled&) {
     fit.parameters = of.defaults();
     fit.report.stop = Termination::cancelled;
   }
-  // From the unit box to mesh units.
-  fit.pose.offset -= fit.pose.scale / box.extent * (box.corner * fit.pose.rotation.transpose());
-  fit.pose.scale /= box.extent;
+  fit.pose = in_mesh_units(fit.pose, box);
   fit.report.seconds["solve"] = seconds;
   return fit;
 }

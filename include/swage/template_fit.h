@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "swage/backend.h"
@@ -32,9 +33,11 @@ struct FitOptions {
   int sigmas = 4;                    ///< Passes, [1, 20], their sigma from the box diagonal D
   double least_sigma = 0.03;         ///< to this part of it, geometrically. (0, 1].
   int iterations = 100;              ///< Of each pass, at least 1.
-  char up = 'y';                     ///< The mesh's: 'x', 'y' or 'z'.
+  char up = 0;                       ///< The mesh's: 'x', 'y', 'z', or 0: y or z, whichever fits better.
   bool turns = true;                 ///< Whether the mesh is tried in four directions about it.
-  unsigned seed = 1;                 ///< Of the samples.
+  Eigen::VectorXd start;             ///< Parameters to begin with alone; empty: the defaults, and guesses about them.
+  std::optional<TemplatePose> pose;  ///< Where it is known: kept as it is.
+  unsigned seed = 1;                 ///< Of samples and guesses.
   std::shared_ptr<Backend> backend;  ///< Evaluates the field; cpu_backend() where none is given.
 };
 
@@ -50,9 +53,11 @@ struct TemplateFit {
 /// Minimises mean over S of f² + alpha mean over V of exp(-d² / sigma²) (f - d)², d the signed distance from the mesh,
 /// by L-BFGS-B, pass by pass with falling sigma. Parts of the mesh that are not closed have no inside: there the
 /// distance is compared with |f|, and a warning tells how much that is. The pose begins with the boxes' bottoms and
-/// middles aligned and the same diagonals; its offset is fitted along.
+/// middles aligned and the same diagonals; its offset is fitted along. Several attempts are made with few samples, in
+/// all directions and from several parameters, and the best of them ended with all.
 ///
-/// Throws InvalidInput as check() does, where no triangle has an area, and for an option out of its range.
+/// Throws InvalidInput as check() does, where no triangle has an area, and for an option out of its range, and
+/// Unsolvable where the template has no surface to begin with.
 TemplateFit fit_template(const Template& of, const PositionsRef& positions, const TrianglesRef& triangles,
                          const FitOptions& options = {}, const ProgressFn& progress = {});
 

@@ -84,19 +84,15 @@ Json document_of(const Json& node) {
                 node};
   if (flat) nodes.push_back({{"id", "body"}, {"type", "extrude"}, {"of", "asked"}, {"height", 1}});
   nodes.push_back({{"id", "all"}, {"type", "union"}, {"of", {"ball", "disc", flat ? "body" : "asked"}}});
-  return {{"version", 1},
-          {"name", "test"},
-          {"description", "A test."},
-          {"up", "z"},
-          {"parameters",
-           {{{"name", "size"},
-             {"default", 2},
-             {"min", 1},
-             {"max", 4},
-             {"group", "sizes"},
-             {"description", "Of all."}}}},
-          {"nodes", nodes},
-          {"root", "all"}};
+  return {
+      {"version", 1},
+      {"name", "test"},
+      {"description", "A test."},
+      {"up", "z"},
+      {"parameters",
+       {{{"name", "size"}, {"default", 2}, {"min", 1}, {"max", 4}, {"group", "sizes"}, {"description", "Of all."}}}},
+      {"nodes", nodes},
+      {"root", "all"}};
 }
 
 /// The object has what the schema lists, and is refused with a key beyond, without one that is needed, and not without
