@@ -19,9 +19,11 @@
 #include "plan.h"
 #include "procrustes.h"
 #include "sides.h"
+#include "spokes_and_rims.h"
 #include "step_inputs.h"
 #include "swage/curvature.h"
 #include "swage/error.h"
+#include "swage/template.h"
 #ifdef SWAGE_BENCH_OPENCL
 #include "device_peak.h"
 #include "devices.h"
@@ -266,6 +268,45 @@ void add_carry() {
   });
 }
 
+/// A point in and around a couch: its place, the field's value and gradient there.
+void add_field() {
+  add_step("field", [](const Backend& backend, int elements, double) {
+    const Template couch = shipped_template("couch");
+    const Positions points = 1.5 * Positions::Random(elements, 3);
+    const std::shared_ptr<FieldStep> step = couch.field(backend);
+    const auto field = std::make_shared<FieldValues>();
+    return Work{
+        [=, parameters = couch.defaults()] { step->evaluate(points, parameters, FieldDerivatives::in_space, *field); },
+        (3 + 1 + 3) * kHost};
+  });
+}
+
+Positions mean_normals(const Mesh& mesh) {
+  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
+  Positions sums = Positions::Zero(mesh.positions.rows(), 3);
+  for (Index corner = 0; corner < mesh.triangles.size(); ++corner) {
+    sums.row(mesh.triangles.data()[corner]) += areas.row(corner / 3);
+  }
+  return normalised(sums);
+}
+
+/// An element a vertex: its spokes and rims with their edges, two normals, a position, and a map.
+void add_local_map() {
+  add_step("local_map", [](const Backend& backend, int elements, double real_size) {
+    const Mesh mesh = mesh_of(2 * elements);
+    LocalMapStep::Rest rest;
+    rest.pairs = vertex_elements(mesh, Positions::Ones(mesh.triangles.rows(), 3)).pairs;
+    rest.pairs.normals = mean_normals(mesh);
+    const double pairs = static_cast<double>(rest.pairs.pairs.rows()) / elements;
+    const std::shared_ptr<LocalMapStep> step = backend.local_map(rest);
+    const Mesh moved = {(2 * mesh.positions).array().sin(), mesh.triangles};
+    const Positions normals = mean_normals(moved);
+    const auto maps = std::make_shared<Transforms>();
+    return Work{[=] { step->fit(moved.positions, normals, *maps); },
+                kIndex + pairs * (2 * kIndex + 4 * real_size) + 3 * real_size + (2 * 3 + 9) * kHost};
+  });
+}
+
 /// The closest rotations alone, of matrices that lie where they are needed.
 void add_closest_rotation_by_cpu() {
   for (const int elements : kSizes) {
@@ -342,6 +383,8 @@ void register_all() {
   add_normal_fit();
   add_closest_normal();
   add_carry();
+  add_field();
+  add_local_map();
   add_closest_rotation_by_cpu();
 #ifdef SWAGE_BENCH_OPENCL
   add_closest_rotation_by_device();

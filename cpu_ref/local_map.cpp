@@ -22,10 +22,13 @@ Matrix3d shortest_rotation(const Vector3d& from, const Vector3d& to) {
 
 class CpuLocalMap final : public LocalMapStep {
  public:
-  explicit CpuLocalMap(const Rest& rest) : rest_(rest) {}
+  explicit CpuLocalMap(const Rest& rest) : rest_(rest), inverses_(element_count(rest.pairs), 9) {
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index i = 0; i < inverses_.rows(); ++i) store(inverse_spread(i), inverses_, i);
+  }
 
   void fit(const Positions& positions, const Positions& normals, Transforms& maps) override {
-    const Eigen::Index count = element_count(rest_.pairs);
+    const Eigen::Index count = inverses_.rows();
     check_rows("LocalMapStep::fit", "positions", positions.rows(), rest_.pairs.vertices.rows());
     check_rows("LocalMapStep::fit", "normals", normals.rows(), count);
     const bool smooths = !rest_.neighbours.empty();
@@ -36,31 +39,43 @@ class CpuLocalMap final : public LocalMapStep {
     for (Eigen::Index i = 0; i < count; ++i) {
       const Vector3d rest_normal = rest_.pairs.normals.row(i), normal = normals.row(i);
       Matrix3d image = edge_covariance(rest_.pairs, positions, i);
-      Matrix3d spread = edge_covariance(rest_.pairs, rest_.pairs.vertices, i);
-      if (smooths) add_neighbours(i, normals, last, image, spread);
-      const Matrix3d plane = across(rest_normal);
-      Eigen::JacobiSVD<Matrix3d> solver(plane * spread * plane, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      solver.setThreshold(kStraight);
-      const Matrix3d flat = solver.solve(plane * image.transpose() * across(normal)).transpose();
-      Eigen::Map<RowMajor3d>(maps.row(i).data()) = normal * rest_normal.transpose() + flat;
+      if (smooths) image += neighbours(i, normals, last);
+      store(normal * rest_normal.transpose() + across(normal) * image * matrix(inverses_, i), maps, i);
     }
   }
 
  private:
-  void add_neighbours(Eigen::Index i, const Positions& normals, const Transforms& last, Matrix3d& image,
-                      Matrix3d& spread) const {
+  static Eigen::Map<const RowMajor3d> matrix(const Transforms& rows, Eigen::Index i) {
+    return Eigen::Map<const RowMajor3d>(rows.row(i).data());
+  }
+
+  /// (P (sum_p w_p a_p a_pᵀ + sum_j w_j I) P)⁺
+  Matrix3d inverse_spread(Eigen::Index i) const {
+    Matrix3d spread = edge_covariance(rest_.pairs, rest_.pairs.vertices, i);
+    if (!rest_.neighbours.empty()) {
+      const auto at = static_cast<size_t>(i);
+      for (int k = rest_.offsets[at]; k < rest_.offsets[at + 1]; ++k) spread.diagonal().array() += rest_.smoothing[k];
+    }
+    const Matrix3d plane = across(rest_.pairs.normals.row(i).transpose());
+    Eigen::JacobiSVD<Matrix3d> solver(plane * spread * plane, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    solver.setThreshold(kStraight);
+    return solver.solve(plane);
+  }
+
+  /// sum_j w_j T_j
+  Matrix3d neighbours(Eigen::Index i, const Positions& normals, const Transforms& last) const {
+    Matrix3d sum = Matrix3d::Zero();
     const auto at = static_cast<size_t>(i);
     for (int k = rest_.offsets[at]; k < rest_.offsets[at + 1]; ++k) {
       const int j = rest_.neighbours[static_cast<size_t>(k)];
-      const Eigen::Map<const RowMajor3d> map(last.row(j).data());
-      const Matrix3d turned = shortest_rotation(normals.row(j), normals.row(i)) * map *
-                              shortest_rotation(rest_.pairs.normals.row(i), rest_.pairs.normals.row(j));
-      image += rest_.smoothing[k] * turned;
-      spread += rest_.smoothing[k] * Matrix3d::Identity();
+      sum += rest_.smoothing[k] * shortest_rotation(normals.row(j), normals.row(i)) * matrix(last, j) *
+             shortest_rotation(rest_.pairs.normals.row(i), rest_.pairs.normals.row(j));
     }
+    return sum;
   }
 
   Rest rest_;
+  Transforms inverses_;
 };
 
 }  // namespace

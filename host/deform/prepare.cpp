@@ -8,6 +8,7 @@
 #include "plan.h"
 #include "spokes_and_rims.h"
 #include "swage/error.h"
+#include "tied_elements.h"
 
 namespace swage {
 namespace {

@@ -13,7 +13,9 @@ namespace {
 using Eigen::Index;
 
 constexpr const char* kStem = "field";
-constexpr int kManyGroups = 1024;                         // So many have places to work in, at most,
+constexpr int kBlock = 4;                                 // As the kernel's BLOCK, where there are lanes.
+constexpr int kManyGroups = 1024;                         // So many have places to work in, at most; of processors so
+constexpr int kGroupsOfUnit = 4;                          // many for each unit, that the places stay in the cache;
 constexpr std::size_t kScratch = std::size_t{256} << 20;  // of so many bytes in all.
 
 std::vector<int> code_of(const Tape& tape) {
@@ -22,12 +24,15 @@ std::vector<int> code_of(const Tape& tape) {
   return code;
 }
 
+Index units_of(const cl::Device& device) { return static_cast<Index>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()); }
+
 class OpenClField final : public FieldStep {
  public:
   OpenClField(const Queue& queue, const Tape& tape)
       : queue_(queue),
         tape_(tape),
         lanes_(queue.context->lanes(kStem)),
+        most_groups_(lanes_ == 1 ? kManyGroups : kGroupsOfUnit * units_of(queue.context->device())),
         code_(queue, code_of(tape)),
         fixed_(queue, tape.uniform_count()),
         run_(queue, kStem, "run_tape") {}
@@ -81,18 +86,19 @@ class OpenClField final : public FieldStep {
   };
 
   /// Points that a group works on at a time.
-  Index group_width() const { return lanes_ == 1 ? kGroup : lanes_; }
+  Index group_width() const { return lanes_ == 1 ? kGroup : kBlock * lanes_; }
   Index slots_of(int groups) const { return groups * group_width() * tape_.slot_count(); }
   int groups_for(Index count) const {
     const Index wanted = (count + group_width() - 1) / group_width();
     const auto each = static_cast<std::size_t>(group_width() * tape_.slot_count()) * sizeof(double);
     const auto room = static_cast<Index>(std::max<std::size_t>(1, kScratch / each));
-    return static_cast<int>(std::min({wanted, room, Index{kManyGroups}}));
+    return static_cast<int>(std::min({wanted, room, most_groups_}));
   }
 
   Queue queue_;
   Tape tape_;
   int lanes_;
+  Index most_groups_;
   Ints code_;
   Reals fixed_;
   std::optional<Asked> asked_;

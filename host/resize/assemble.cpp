@@ -21,6 +21,7 @@ namespace {
 constexpr const char* kCaller = "Assembly";
 constexpr double kStiffening = 10;
 constexpr int kStiffeningLimit = 8;
+constexpr int kHalvings = 8;  // Of what is not known of the way to plain scaling.
 
 /// What one thread at a time works with.
 struct AssemblyWork {
@@ -84,16 +85,21 @@ double least_volume(const GridShape& shape, const Eigen::RowVector3d& factors) {
   return least;
 }
 
-/// Halves the way to plain scaling, which folds nothing, until no cell is folded.
+/// Goes towards plain scaling, which folds nothing, as little as it takes until no cell is folded.
 void unfold(const GridShape& shape, const Eigen::RowVector3d& factors, double least, AxisValues& positions) {
   AxisValues plain = rest_vertices(shape);
   for (int u = 0; u < 3; ++u) {
     const double factor = shape.extends(u) ? factors[u] : 1;
     plain.col(u) = shape.corner[u] + factor * (plain.col(u).array() - shape.corner[u]);
   }
-  for (int half = 0; half < 50 && !folded_cells(shape, positions, least).empty(); ++half) {
-    positions = (0.5 * (positions + plain)).eval();
+  const AxisValues folded = positions;
+  double low = 0, high = 1;  // Parts of the way: folded, and not.
+  for (int half = 0; half < kHalvings; ++half) {
+    const double part = 0.5 * (low + high);
+    positions = (1 - part) * folded + part * plain;
+    (folded_cells(shape, positions, least).empty() ? high : low) = part;
   }
+  positions = (1 - high) * folded + high * plain;
 }
 
 }  // namespace
@@ -145,6 +151,7 @@ GridVertices Assembly::place(const AxisValues& scales, const Eigen::RowVector3d&
        folded = folded_cells(shape, result.positions, least)) {
     if (result.stiffened == kStiffeningLimit) {
       unfold(shape, factors, least, result.positions);
+      result.converged = false;
       break;
     }
     if (result.stiffened++ == 0) stiff = plan_->map;

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Vector = Values<double>;
 
 constexpr int kIterationLimit = 50;  // Of a round.
-constexpr int kRoundLimit = 200;
+constexpr int kRoundLimit = 60;
 constexpr double kRounding = 1e-14;
 
 /// Adds each cell's value to the four edges along `axis` that bound it, told by their first vertices.

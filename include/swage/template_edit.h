@@ -33,6 +33,8 @@ struct TemplateEditResult {
   Report report;
 };
 
+struct EditPlan;  ///< What is kept of a mesh between edits.
+
 /// A mesh that follows a template which was fitted to it. Prepared once, with the template as it lies at rest; then
 /// moved again and again. What is found depends on the parameters asked for, not on those asked for before, but for
 /// follow().
@@ -62,8 +64,9 @@ class TemplateEdit {
   TemplateEditResult follow(const Eigen::VectorXd& target, int passes = 1);
 
  private:
-  struct Plan;
-  std::unique_ptr<Plan> plan_;
+  friend std::vector<TemplateEditResult> interpolate(TemplateEdit&, const Eigen::VectorXd&, const Eigen::VectorXd&, int,
+                                                     const ProgressFn&);
+  std::unique_ptr<EditPlan> plan_;
 };
 
 /// The mesh at `count` steps from the source's parameters to the target's, both included; linear in the parameters.

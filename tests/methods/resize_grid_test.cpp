@@ -126,6 +126,21 @@ TEST(ResizeGrid, FoldsWhereOnlyEdgesAreBounded) {
   expect_sound(shape, result, {0.05, 1, 1});
 }
 
+TEST(ResizeGrid, GoesTowardsPlainScalingWhereNothingElseHelps) {
+  const GridShape shape = unit_cells(24, 24, 24);
+  CellMap map = ball_map(shape, 0.52);  // A hollow ball, which has no room beside it.
+  map.theta = (map.theta - ball_map(shape, 0.44).theta).cwiseMax(0);
+  const Factors factors(0.3, 1, 3);
+  Resized result;
+  result.scales = ScaleSolve(shape, map).solve(factors, {0, 1e-6});
+  result.grid = Assembly(shape, map).place(result.scales.values, factors);
+  EXPECT_FALSE(result.grid.converged);
+  expect_sound(shape, result, factors);
+  // But not all the way.
+  const AxisValues plain = (rest_vertices(shape).array().rowwise() * factors.array()).matrix();
+  EXPECT_GT((result.grid.positions - plain).cwiseAbs().maxCoeff(), 1);
+}
+
 TEST(ResizeGrid, TurnsWithTheModel) {
   const GridShape shape = unit_cells(9, 7, 8);
   const CellMap map = random_map(shape, 5);

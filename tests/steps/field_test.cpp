@@ -190,6 +190,8 @@ TEST_P(FieldStepBy, LeavesWhatIsNotAskedFor) {
   step->evaluate(random_points(70, 1, 1), of.defaults(), FieldDerivatives::in_space, field);
   EXPECT_EQ(field.gradients.rows(), 70);
   EXPECT_EQ(field.by_parameters.size(), 0);
+  step->evaluate(random_points(37, 1, 1), of.defaults(), FieldDerivatives::all, field);
+  EXPECT_EQ(field.by_parameters.rows(), 37);
   step->evaluate(Positions(0, 3), of.defaults(), FieldDerivatives::all, field);
   EXPECT_EQ(field.values.size(), 0);
   EXPECT_THROW(step->evaluate(Positions(1, 3), VectorXd::Zero(2), FieldDerivatives::none, field), InvalidInput);

@@ -1,0 +1,106 @@
+// A mesh that follows its template.
+#include <utility>
+
+#include "edit_plan.h"
+#include "preparation.h"
+#include "stopwatch.h"
+#include "swage/error.h"
+#include "warnings.h"
+
+namespace swage {
+namespace {
+
+TemplateEditResult cancelled(const EditPlan& plan) {
+  TemplateEditResult result;
+  result.positions = plan.pose.back(plan.given ? plan.given->mesh().positions : plan.mesh.positions);
+  result.report.stop = Termination::cancelled;
+  return result;
+}
+
+/// The same with what any edit's report tells.
+TemplateEditResult told(const EditPlan& plan, double seconds, TemplateEditResult result) {
+  Report& report = result.report;
+  report.paths["components"] = plan.told_components;
+  report.seconds["precompute"] = plan.prepare_seconds;
+  report.seconds["solve"] = seconds;
+  if (report.stop != Termination::cancelled) {
+    warn_of_shape({plan.counts, plan.edges, plan.flat_triangles, plan.components}, report);
+  }
+  return result;
+}
+
+/// From where the last call left the mesh.
+TemplateEditResult advanced(EditPlan& plan, const Eigen::VectorXd& target, const ProgressFn& progress) {
+  double seconds = 0;
+  TemplateEditResult result;
+  {
+    const Stopwatch watch(seconds);
+    result = result_of(plan, target, advance(plan, target, progress));
+  }
+  return told(plan, seconds, std::move(result));
+}
+
+}  // namespace
+
+TemplateEdit::TemplateEdit(const Template& of, const Eigen::VectorXd& source, const TemplatePose& pose,
+                           const PositionsRef& positions, const TrianglesRef& triangles,
+                           const TemplateEditOptions& options) {
+  check(positions, triangles);
+  check_options(options);
+  check_parameters(of, source, "source");
+  plan_ = plan_of(of, source, pose, positions, triangles, options);
+}
+
+TemplateEdit::~TemplateEdit() = default;
+TemplateEdit::TemplateEdit(TemplateEdit&&) noexcept = default;
+TemplateEdit& TemplateEdit::operator=(TemplateEdit&&) noexcept = default;
+
+bool TemplateEdit::prepare(const ProgressFn& progress) { return swage::prepare(*plan_, progress); }
+
+TemplateEditResult TemplateEdit::solve(const Eigen::VectorXd& target, const ProgressFn& progress) {
+  check_parameters(plan_->of, target, "target");
+  if (!prepare(progress)) return cancelled(*plan_);
+  reset(*plan_);
+  return advanced(*plan_, target, after_preparation(progress));
+}
+
+TemplateEditResult TemplateEdit::follow(const Eigen::VectorXd& target, int passes) {
+  check_parameters(plan_->of, target, "target");
+  if (passes < 1) throw InvalidInput("TemplateEdit::follow: passes: below 1");
+  prepare();
+  double seconds = 0;
+  TemplateEditResult result;
+  {
+    const Stopwatch watch(seconds);
+    Report report;
+    for (int i = 0; i < passes; ++i) report.movements.push_back(pass(*plan_, target));
+    report.passes = passes;
+    if (report.movements.back() < plan_->options.tolerance * plan_->diagonal) report.stop = Termination::moved_little;
+    result = result_of(*plan_, target, std::move(report));
+  }
+  return told(*plan_, seconds, std::move(result));
+}
+
+std::vector<TemplateEditResult> interpolate(TemplateEdit& edit, const Eigen::VectorXd& source,
+                                            const Eigen::VectorXd& target, int count, const ProgressFn& progress) {
+  EditPlan& plan = *edit.plan_;
+  check_parameters(plan.of, source, "source");
+  check_parameters(plan.of, target, "target");
+  if (count < 2) throw InvalidInput("interpolate: count: fewer than 2 steps");
+  std::vector<TemplateEditResult> steps;
+  if (!edit.prepare(progress)) return steps;
+  reset(plan);
+  for (int i = 0; i < count; ++i) {
+    const double part = static_cast<double>(i) / (count - 1);
+    const ProgressFn own = [&](Progress p) {
+      p.fraction = kPrepared + (1 - kPrepared) * (i + p.fraction) / count;
+      return !progress || progress(p);
+    };
+    TemplateEditResult step = advanced(plan, source + part * (target - source), own);
+    if (step.report.stop == Termination::cancelled) break;
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+}  // namespace swage

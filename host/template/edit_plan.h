@@ -1,0 +1,106 @@
+// What a prepared edit keeps, and the verbs that it is told in.
+//
+// Each pass minimises, for the vertices' displacements d in the unit box,
+//   sum over vertices v and the edges (u, w) around them of c |d_w - d_u - J_v (w - u) + (w' - u')|²   (paper eq. 10)
+//   + sum over vertices of m_v (a_v . d_v - (f_v - f'(v')) / |grad f'|)²                               (eq. 8)
+// with the maps J_v of the local_map step, which take the rest normal n_v to n'_v, and a_v the mean of grad f' / |grad
+// f'| and n'_v.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adjacency.h"
+#include "conjugate_gradients.h"
+#include "element_list.h"
+#include "given.h"
+#include "laplacian_system.h"
+#include "measures.h"
+#include "swage/template_edit.h"
+
+namespace swage {
+
+/// How neighbourhoods are mapped: as the paper's local_map step does or, to measure what that is better than, by the
+/// closest rotations.
+enum class EditMaps { stretched, rotated };
+
+/// What a pass follows, a row or entry a vertex.
+struct Tracking {
+  FieldValues field;        ///< In the unit box, whose unit its values have.
+  Positions normals;        ///< n', unit: where neighbourhoods face.
+  Positions directions;     ///< (grad f' / |grad f'| + n') / 2
+  Eigen::VectorXd gaps;     ///< (f_v - f') / |grad f'|
+  Eigen::VectorXd weights;  ///< m_v: 0 where the field tells nothing.
+};
+
+struct EditPlan {
+  Template of;
+  Eigen::VectorXd source;
+  TemplatePose pose;
+  TemplateEditOptions options;
+  EditMaps kind = EditMaps::stretched;
+  std::optional<Given> given = {};  ///< Where what follows is not as given.
+  Mesh mesh = {};                   ///< In the template's space.
+  SurfaceCounts counts = {};
+  UnitBox box = {};
+  Edges edges = {};
+  double diagonal = 0;  ///< D in the unit box, of the mesh as given.
+
+  // Filled by prepare().
+  std::unique_ptr<FieldStep> field = {};
+  std::unique_ptr<LocalMapStep> local_map = {};
+  std::unique_ptr<RotationStep> rotation = {};
+  Elements elements = {};  ///< One a vertex, in the unit box.
+  LaplacianSystem system = {};
+  std::unique_ptr<HeldLaplacian> about = {};  ///< The laplacian and a part of all tracking weights, factored.
+  HeldPoints about_points = {};
+  Lists rings = {};
+  std::vector<int> creases = {};
+  Eigen::VectorXd rest_values = {};  ///< f_v
+  Positions rest_normals = {};       ///< n_v
+  Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
+  int components = 1, flat_triangles = 0;
+  std::string told_components = "one";
+  double prepare_seconds = 0;
+  bool prepared = false;
+  std::mutex preparing = {};
+
+  // Where the last call left the mesh.
+  Eigen::VectorXd parameters = {};
+  Positions positions = {};
+  Transforms maps = {};
+  Tracking tracking = {};
+  GradientsWork<Eigen::VectorXd> work = {};
+};
+
+// edit_check.cpp
+void check_options(const TemplateEditOptions& options);
+void check_parameters(const Template& of, const Eigen::VectorXd& parameters, const char* called);
+
+// edit_prepare.cpp
+std::unique_ptr<EditPlan> plan_of(const Template& of, const Eigen::VectorXd& source, const TemplatePose& pose,
+                                  const PositionsRef& positions, const TrianglesRef& triangles,
+                                  const TemplateEditOptions& options);
+/// Once. False where `progress` cancelled: another call begins anew.
+bool prepare(EditPlan& plan, const ProgressFn& progress);
+/// The mesh is as it was at first.
+void reset(EditPlan& plan);
+
+// tracking.cpp
+/// The field and its gradients in the unit box.
+void evaluate(EditPlan& plan, const Positions& positions, const Eigen::VectorXd& parameters, FieldDerivatives how,
+              FieldValues& field);
+/// Of where the mesh is.
+void track(EditPlan& plan, const Eigen::VectorXd& parameters);
+
+// follow.cpp
+/// Moves the mesh by one pass, and returns how far it moved a vertex at most.
+double pass(EditPlan& plan, const Eigen::VectorXd& parameters);
+/// From where the mesh is to the target until it stands still.
+Report advance(EditPlan& plan, const Eigen::VectorXd& target, const ProgressFn& progress);
+/// Where the mesh is.
+TemplateEditResult result_of(EditPlan& plan, const Eigen::VectorXd& target, Report report);
+
+}  // namespace swage

@@ -1,0 +1,191 @@
+// All that depends on the rest shape alone.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <utility>
+
+#include "edit_plan.h"
+#include "edit_smoothing.h"
+#include "flat.h"
+#include "join.h"
+#include "matrices.h"
+#include "preparation.h"
+#include "spokes_and_rims.h"
+#include "stopwatch.h"
+#include "swage/error.h"
+#include "swage/features.h"
+#include "tied_elements.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kReach = 0.01;              // Of D: what is smaller follows its surroundings rather than the template.
+constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
+constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
+constexpr double kAbout = 0.3;               // Part of the tracking weights that is factored.
+constexpr double kNoSlope = 1e-6;
+
+Positions vertex_normals(const Mesh& mesh) {
+  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
+  Positions normals = Positions::Zero(mesh.positions.rows(), 3);
+  for (Index t = 0; t < areas.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(t, k)) += areas.row(t);
+  }
+  normals = normalised(std::move(normals));
+  for (auto normal : normals.rowwise()) {
+    if (!(normal.squaredNorm() > 0.5)) normal = Eigen::RowVector3d::UnitY();
+  }
+  return normals;
+}
+
+Eigen::VectorXd tracking_weights(const EditPlan& plan, const Mesh& unit_mesh) {
+  const Eigen::VectorXd areas = barycentric_areas(unit_mesh.positions, unit_mesh.triangles);
+  const double reach = kReach * plan.diagonal;
+  return plan.options.tracking / (reach * reach) * areas.cwiseMax(kLeastArea * areas.mean());
+}
+
+std::vector<char> are_features(const EditPlan& plan, const Mesh& unit_mesh) {
+  const FeatureEdges features = feature_edges(unit_mesh.positions, unit_mesh.triangles,
+                                              std::numbers::pi * (1 - plan.options.feature_angle / 180));
+  std::vector<char> are(static_cast<size_t>(plan.edges.vertices.rows()), 0);
+  for (const auto& feature : features.rowwise()) {
+    const int e = edge_between(plan.edges, feature[0], feature[1]);
+    if (e >= 0) are[static_cast<size_t>(e)] = 1;
+  }
+  return are;
+}
+
+/// Solves the laplacian and kAbout of the tracking, as if that drew along all axes alike.
+void factor(EditPlan& plan) {
+  const Index count = plan.weights.size();
+  HeldPoints& points = plan.about_points;
+  points.soft.reserve(static_cast<size_t>(count));
+  for (int v = 0; v < count; ++v)
+    points.soft.push_back({{v, v, v}, Eigen::Vector3d::UnitX(), kAbout * plan.weights[v]});
+  points.soft_targets = Positions::Zero(count, 3);
+  points.fixed_targets.resize(0, 3);
+  plan.about = std::make_unique<HeldLaplacian>(plan.system, points);
+}
+
+void sign(EditPlan& plan, const Mesh& unit_mesh) {
+  FieldValues field;
+  evaluate(plan, unit_mesh.positions, plan.source, FieldDerivatives::in_space, field);
+  plan.rest_values = field.values;
+  plan.rest_normals = vertex_normals(unit_mesh);
+  plan.weights = tracking_weights(plan, unit_mesh);
+  for (Index v = 0; v < field.values.size(); ++v) {
+    const double slope = field.gradients.row(v).norm();
+    if (slope > kNoSlope && std::isfinite(slope)) {
+      plan.rest_normals.row(v) = field.gradients.row(v) / slope;
+    } else {
+      plan.weights[v] = 0;
+    }
+  }
+}
+
+void make(EditPlan& plan, const ProgressFn& progress) {
+  Preparation preparation(progress, plan.options.passes);
+  const Stopwatch watch(plan.prepare_seconds);
+  const Mesh unit_mesh{plan.box.into(plan.mesh.positions), plan.mesh.triangles};
+  const Backend& backend = *plan.options.backend;
+  plan.field = plan.of.field(backend);
+  sign(plan, unit_mesh);
+  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
+  plan.components = 1 + *std::max_element(component.begin(), component.end());
+  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
+  preparation.begin("components", 0);
+  // No scaffold: the template carries what is apart.
+  const Joined joined = join_components(unit_mesh, plan.edges, When::never, preparation.poll());
+  plan.told_components = joined.told;
+  preparation.begin("elements", 0.4);
+  const Positions weights =
+      half_cotangents(unit_mesh.positions, unit_mesh.triangles, is_flat).cwiseMax(kWeights[0]).cwiseMin(kWeights[1]);
+  plan.elements = vertex_elements(unit_mesh, weights);
+  add_ties(unit_mesh.positions, joined.ties, mean_edge_length(unit_mesh.positions, unit_mesh.triangles), plan.elements);
+  plan.rings = one_rings(plan.edges, static_cast<int>(unit_mesh.positions.rows()));
+  LocalMapStep::Rest rest;
+  rest.pairs = plan.elements.pairs;
+  rest.pairs.normals = plan.rest_normals;
+  if (plan.options.smoothing > 0) {
+    join_neighbours(plan.edges, are_features(plan, unit_mesh), plan.options.smoothing * plan.diagonal, rest);
+  }
+  if (std::getenv("SW_CREASE")) {
+    const std::vector<char> is = are_features(plan, unit_mesh);
+    std::vector<char> on(static_cast<size_t>(unit_mesh.positions.rows()), 0);
+    for (Index e = 0; e < plan.edges.vertices.rows(); ++e)
+      if (is[static_cast<size_t>(e)])
+        for (int v : plan.edges.vertices.row(e)) on[static_cast<size_t>(v)] = 1;
+    for (int v = 0; v < unit_mesh.positions.rows(); ++v) {
+      if (!on[static_cast<size_t>(v)]) continue;
+      Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+      for (int p = rest.pairs.offsets[static_cast<size_t>(v)]; p < rest.pairs.offsets[static_cast<size_t>(v) + 1];
+           ++p) {
+        const Eigen::RowVector3d a =
+            rest.pairs.vertices.row(rest.pairs.pairs(p, 1)) - rest.pairs.vertices.row(rest.pairs.pairs(p, 0));
+        spread += rest.pairs.weights[p] * a.transpose() * a;
+      }
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> s(spread);
+      if (s.eigenvalues()[0] > 0.02 * s.eigenvalues()[2]) {
+        plan.creases.push_back(v);
+        rest.pairs.normals.row(v).setZero();
+        if (!rest.offsets.empty())
+          for (int k = rest.offsets[static_cast<size_t>(v)]; k < rest.offsets[static_cast<size_t>(v) + 1]; ++k)
+            rest.smoothing[k] = 0;
+      }
+    }
+  }
+  plan.local_map = backend.local_map(rest);
+  if (plan.kind == EditMaps::rotated) plan.rotation = backend.rotation(plan.elements.pairs);
+  preparation.begin("factor", 0.6);
+  plan.system = LaplacianSystem(plan.elements.pairs);
+  factor(plan);
+  reset(plan);
+}
+
+void check_finite(const EditPlan& plan) {
+  FieldValues field;
+  plan.of.field(*plan.options.backend)->evaluate(plan.mesh.positions, plan.source, FieldDerivatives::none, field);
+  for (Index v = 0; v < field.values.size(); ++v) {
+    if (std::isfinite(field.values[v])) continue;
+    const int vertex = plan.given ? plan.given->vertex(static_cast<int>(v)) : static_cast<int>(v);
+    throw InvalidInput("TemplateEdit: the field of " + plan.of.name() + " is not finite at vertex " +
+                       std::to_string(vertex) + "; are the parameters and the pose those of a fit?");
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<EditPlan> plan_of(const Template& of, const Eigen::VectorXd& source, const TemplatePose& pose,
+                                  const PositionsRef& positions, const TrianglesRef& triangles,
+                                  const TemplateEditOptions& options) {
+  std::unique_ptr<EditPlan> plan(new EditPlan{of, source, pose, options});
+  if (!plan->options.backend) plan->options.backend = cpu_backend();
+  Mesh mesh{pose.into(positions), triangles};
+  const double diagonal = box_diagonal(mesh.positions);
+  Surface surface = surface_given(mesh, "TemplateEdit");
+  plan->counts = surface.counts;
+  if (!surface.is_as_given()) plan->given.emplace(std::move(mesh), surface, false);
+  plan->box = unit_box(surface.mesh.positions);
+  plan->diagonal = diagonal / plan->box.extent;
+  plan->mesh = std::move(surface.mesh);
+  plan->edges = std::move(surface.edges);
+  check_finite(*plan);
+  return plan;
+}
+
+bool prepare(EditPlan& plan, const ProgressFn& progress) {
+  return prepare_once(plan, [&](EditPlan& unprepared) { make(unprepared, progress); });
+}
+
+void reset(EditPlan& plan) {
+  plan.parameters = plan.source;
+  plan.positions = plan.elements.pairs.vertices;
+  plan.maps = identities(plan.positions.rows());
+}
+
+}  // namespace swage

@@ -1,0 +1,183 @@
+// Passes.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "anderson.h"
+#include "cancel.h"
+#include "edit_plan.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+using Eigen::RowVector3d;
+using Eigen::VectorXd;
+
+double env(const char* n, double d) {
+  const char* s = std::getenv(n);
+  return s ? std::atof(s) : d;
+}
+
+const double kStep = env("SW_STEP", 0.02);  // Of D: no vertex goes farther for the template in a pass.
+const double kJump = env("SW_JUMP", 0.02);  // Of D: a sub-edit moves the template no farther.
+const double kLeastPart = 1.0 / env("SW_PARTS", 24);
+const int kSubEditPasses = (int)env("SW_SUB", 3);
+const int kIterations = (int)env("SW_CG", 6);  // Of conjugate gradients in a pass.
+const int kWindow = (int)env("SW_AND", 5);
+const double kSolved = 1e-4;
+
+Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
+Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
+
+/// product = laplacian · x + m a (a . x)
+void times_matrix(const EditPlan& plan, const VectorXd& x, VectorXd& product) {
+  product.resize(x.size());
+  const SparseMatrix& laplacian = plan.system.laplacian();
+  const auto from = rows(x);
+  auto to = rows(product);
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < laplacian.cols(); ++v) {
+    const RowVector3d a = plan.tracking.directions.row(v);
+    RowVector3d sum = plan.tracking.weights[v] * a.dot(from.row(v)) * a;
+    for (SparseMatrix::InnerIterator entry(laplacian, v); entry; ++entry) sum += entry.value() * from.row(entry.row());
+    to.row(v) = sum;
+  }
+}
+
+/// What is left of both terms' right-hand sides where the mesh is.
+VectorXd residual(const EditPlan& plan) {
+  VectorXd result(plan.positions.size());
+  auto to = rows(result);
+  to = plan.system.right_hand_sides(plan.maps);
+  const SparseMatrix& laplacian = plan.system.laplacian();
+  const Tracking& tracking = plan.tracking;
+  const double most = kStep * plan.diagonal;
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < laplacian.cols(); ++v) {
+    RowVector3d sum = tracking.weights[v] * std::clamp(tracking.gaps[v], -most, most) * tracking.directions.row(v);
+    for (SparseMatrix::InnerIterator entry(laplacian, v); entry; ++entry) {
+      sum -= entry.value() * plan.positions.row(entry.row());
+    }
+    to.row(v) += sum;
+  }
+  return result;
+}
+
+void fit_maps(EditPlan& plan) {
+  if (plan.rotation) {
+    plan.rotation->fit(plan.positions, {}, plan.maps);
+  } else {
+    Positions normals = plan.tracking.normals;
+    for (const int v : plan.creases) normals.row(v).setZero();
+    plan.local_map->fit(plan.positions, normals, plan.maps);
+  }
+}
+
+/// How far the template moves from where it is to the parameters, over the mesh, in the unit box.
+double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
+  evaluate(plan, plan.positions, parameters, FieldDerivatives::none, field);
+  const Eigen::ArrayXd slopes = plan.tracking.field.gradients.rowwise().norm().array().max(1e-3);
+  Eigen::ArrayXd moved = (field.values - plan.tracking.field.values).array().abs() / slopes;
+  const auto most = moved.begin() + (99 * moved.size()) / 100;
+  std::nth_element(moved.begin(), most, moved.end());
+  return *most;
+}
+
+}  // namespace
+
+double pass(EditPlan& plan, const VectorXd& parameters) {
+  track(plan, parameters);
+  plan.parameters = parameters;
+  fit_maps(plan);
+  const VectorXd right = residual(plan);
+  VectorXd moved = VectorXd::Zero(right.size());
+  const auto times = [&](const VectorXd& x, VectorXd& y) { times_matrix(plan, x, y); };
+  const auto precondition = [&](const VectorXd& r, VectorXd& e) {
+    e.resize(r.size());
+    rows(e) = plan.about->solve(rows(r), plan.about_points);
+  };
+  conjugate_gradients(times, precondition, right, kSolved, kIterations, moved, plan.work);
+  plan.positions += rows(moved);
+  return rows(moved).rowwise().norm().maxCoeff();
+}
+
+Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progress) {
+  Report report;
+  const VectorXd source = plan.parameters;
+  const auto along = [&](double part) -> VectorXd { return part >= 1 ? target : source + part * (target - source); };
+  const auto one = [&](double part) {
+    const double done = static_cast<double>(report.passes) / plan.options.passes;
+    if (progress && !progress({"pass", report.passes, plan.options.passes, done, 0})) throw Cancelled();
+    report.movements.push_back(pass(plan, along(part)));
+    ++report.passes;
+  };
+  FieldValues field;
+  double at = 0;
+  int sub_edits = 0;
+  try {
+    while (at < 1 && report.passes < plan.options.passes) {
+      double part = plan.options.sub_edits > 0 ? 1.0 / plan.options.sub_edits : 1 - at;
+      if (plan.options.sub_edits == 0) {
+        if (sub_edits == 0) track(plan, source);
+        while (part > kLeastPart && jump_to(plan, along(at + part), field) > kJump * plan.diagonal) part /= 2;
+      }
+      at = at + part > 1 - 1e-9 ? 1 : at + part;
+      ++sub_edits;
+      for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at);
+    }
+    Anderson acceleration(kWindow);
+    Positions start;
+    bool accelerates = false;
+    while (report.passes < plan.options.passes) {
+      if (accelerates) plan.positions = acceleration.next(start, plan.positions);
+      start = plan.positions;
+      one(1);
+      if (report.movements.back() < plan.options.tolerance * plan.diagonal) {
+        report.stop = Termination::moved_little;
+        break;
+      }
+      accelerates = true;
+    }
+  } catch (const Cancelled&) {
+    report.stop = Termination::cancelled;
+  }
+  report.paths["sub_edits"] = std::to_string(sub_edits);
+  return report;
+}
+
+namespace {
+
+/// Triangles that face against where their corners' maps take their rest normal.
+int flipped(const EditPlan& plan) {
+  const Positions before = area_vectors(plan.elements.pairs.vertices, plan.mesh.triangles),
+                  after = area_vectors(plan.positions, plan.mesh.triangles);
+  const Transforms maps = matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps);
+  int count = 0;
+  for (Index t = 0; t < before.rows(); ++t) {
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(maps.row(t).data());
+    Eigen::Matrix3d cofactors;
+    cofactors << map.row(1).cross(map.row(2)), map.row(2).cross(map.row(0)), map.row(0).cross(map.row(1));
+    count += (cofactors * before.row(t).transpose()).dot(after.row(t)) < 0 ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+TemplateEditResult result_of(EditPlan& plan, const VectorXd& target, Report report) {
+  TemplateEditResult result;
+  track(plan, target);
+  const Eigen::ArrayXd off = plan.tracking.gaps.array().abs() / plan.diagonal;
+  result.residual = off.mean();
+  result.largest = off.maxCoeff();
+  result.flipped = flipped(plan);
+  const Positions placed = plan.box.back(plan.positions);
+  result.positions = plan.pose.back(
+      plan.given ? plan.given->back(placed, matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps))
+                 : placed);
+  result.report = std::move(report);
+  return result;
+}
+
+}  // namespace swage

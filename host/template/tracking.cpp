@@ -1,0 +1,87 @@
+// What the template tells the vertices.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "edit_plan.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
+constexpr double kNoSlope = 1e-6;
+
+double env(const char* n, double d) {
+  const char* s = std::getenv(n);
+  return s ? std::atof(s) : d;
+}
+
+Vector3d turned(const Vector3d& v, const Vector3d& from, const Vector3d& to) {
+  const double cosine = from.dot(to);
+  if (cosine < -0.999999) return -v;
+  const Vector3d axis = from.cross(to);
+  return cosine * v + axis.cross(v) + axis * (axis.dot(v) / (1 + cosine));
+}
+
+/// Where the neighbours' turns take a vertex's rest normal.
+Vector3d carried(const EditPlan& plan, const Positions& told, int v) {
+  const Vector3d rest = plan.rest_normals.row(v);
+  Vector3d sum = Vector3d::Zero();
+  for (const int w : plan.rings[v]) sum += turned(rest, plan.rest_normals.row(w), told.row(w));
+  return sum;
+}
+
+/// What the field turns against all its neighbours has come across a ridge, where it tells of another part: it faces
+/// as the neighbours have it.
+void straighten(const EditPlan& plan, Tracking& tracking) {
+  const double least = env("SW_TURN", 0.5);
+  tracking.directions = tracking.normals;
+  const Positions told = tracking.normals;
+#pragma omp parallel for schedule(static)
+  for (int v = 0; v < plan.rings.size(); ++v) {
+    const Vector3d expected = carried(plan, told, v);
+    const double length = expected.norm();
+    if (!(length > 1e-3)) continue;
+    if (tracking.weights[v] == 0 || expected.dot(told.row(v)) < least * length) {
+      tracking.normals.row(v) = expected / length;
+    }
+  }
+  tracking.directions = 0.5 * (tracking.directions + tracking.normals);
+}
+
+}  // namespace
+
+void evaluate(EditPlan& plan, const Positions& positions, const Eigen::VectorXd& parameters, FieldDerivatives how,
+              FieldValues& field) {
+  plan.field->evaluate(plan.box.back(positions), parameters, how, field);
+  field.values /= plan.box.extent;
+}
+
+void track(EditPlan& plan, const Eigen::VectorXd& parameters) {
+  Tracking& tracking = plan.tracking;
+  evaluate(plan, plan.positions, parameters, FieldDerivatives::in_space, tracking.field);
+  const Index count = plan.positions.rows();
+  tracking.normals.resize(count, 3);
+  tracking.gaps.resize(count);
+  tracking.weights = plan.weights;
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < count; ++v) {
+    const RowVector3d gradient = tracking.field.gradients.row(v);
+    const double slope = gradient.norm(), gap = (plan.rest_values[v] - tracking.field.values[v]) / slope;
+    if (plan.weights[v] > 0 && slope > kNoSlope && std::isfinite(slope) && std::isfinite(gap)) {
+      tracking.normals.row(v) = gradient / slope;
+      tracking.gaps[v] = gap;
+    } else {
+      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(plan.maps.row(v).data());
+      tracking.normals.row(v) = (map * plan.rest_normals.row(v).transpose()).normalized();
+      tracking.gaps[v] = tracking.weights[v] = 0;
+    }
+  }
+  straighten(plan, tracking);
+}
+
+}  // namespace swage
