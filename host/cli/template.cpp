@@ -8,7 +8,8 @@ std::vector<Command> template_commands(CLI::App& program, const CommonOptions& c
   CLI::App* group = program.add_subcommand(
       "template", "Fits shapes with named parameters to meshes; the meshes follow the parameters");
   std::vector<Command> commands;
-  for (const auto& make : {template_list_command, template_show_command, template_mesh_command, template_fit_command}) {
+  for (const auto& make : {template_list_command, template_show_command, template_mesh_command, template_fit_command,
+                           template_edit_command, template_retarget_command, template_interpolate_command}) {
     commands.push_back(make(*group, common));
   }
   const auto refuse = [] {

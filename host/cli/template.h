@@ -9,5 +9,8 @@ Command template_list_command(CLI::App& group, const CommonOptions& common);
 Command template_show_command(CLI::App& group, const CommonOptions& common);
 Command template_mesh_command(CLI::App& group, const CommonOptions& common);
 Command template_fit_command(CLI::App& group, const CommonOptions& common);
+Command template_edit_command(CLI::App& group, const CommonOptions& common);
+Command template_retarget_command(CLI::App& group, const CommonOptions& common);
+Command template_interpolate_command(CLI::App& group, const CommonOptions& common);
 
 }  // namespace swage::cli
