@@ -1,5 +1,6 @@
 #include "edit.h"
 
+#include <filesystem>
 #include <sstream>
 
 #include "failure.h"
@@ -35,6 +36,20 @@ void check_outputs(const EditFiles& files) {
   } catch (const InvalidInput& e) {
     throw WrongUsage(std::string("-o: ") + e.what());
   }
+}
+
+std::string numbered(const std::string& path, size_t result, size_t count) {
+  if (count == 1 || path.empty() || path == kStdout) return path;
+  std::filesystem::path file(path);
+  const std::string stem = file.stem().string(), extension = file.extension().string();
+  return file.replace_filename(fmt::format("{}_{}{}", stem, result + 1, extension)).string();
+}
+
+ProgressFn part_of(const ProgressFn& progress, size_t part, size_t count) {
+  return [&progress, part, count](Progress now) {
+    now.fraction = (static_cast<double>(part) + now.fraction) / static_cast<double>(count);
+    return progress(now);
+  };
 }
 
 MeshFile read_input(const std::string& path) {

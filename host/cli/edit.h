@@ -28,11 +28,17 @@ void add_edit_files(CLI::App& app, EditFiles& files, const std::string& mesh_hel
 /// Throws WrongUsage where nothing can be written there, or no mesh of that format. Empty ones are not looked at.
 void check_outputs(const EditFiles& files);
 
+/// The name of a file of one of several results, from 0: a.obj is a_1.obj, a_2.obj, ... Of one result it is as given.
+std::string numbered(const std::string& path, size_t result, size_t count);
+
 /// Warns of what was skipped. Throws as read_mesh() does, and InvalidInput for damaged faces.
 MeshFile read_input(const std::string& path);
 
 /// Nothing where there is no output. Throws UnwritableFile.
 void write_result(const EditFiles& files, const MeshFile& file, const Positions& positions);
+
+/// Of one of several equal parts of a whole call, which `progress` outlives.
+ProgressFn part_of(const ProgressFn& progress, size_t part, size_t count);
 
 /// Calls run(const ProgressFn&), which draws a bar on the terminal and ends where the user interrupts.
 template <class Run>

@@ -4,6 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include "failure.h"
@@ -22,10 +23,12 @@ void start_log() {
 int run(int argc, char** argv) {
   CLI::App program{"Edits the shape of triangle meshes the way a person would expect.", "swage"};
   CommonOptions common;
-  const std::vector<Command> commands = {reshape_command(program, common), stylize_command(program, common),
-                                         resize_command(program, common),  info_command(program, common),
-                                         compare_command(program, common), demo_command(program, common),
-                                         devices_command(program, common)};
+  std::vector<Command> commands = {reshape_command(program, common), stylize_command(program, common),
+                                   resize_command(program, common)};
+  for (Command& command : template_commands(program, common)) commands.push_back(std::move(command));
+  for (const auto& make : {info_command, compare_command, demo_command, devices_command}) {
+    commands.push_back(make(program, common));
+  }
   add_common_options(program, common);
   for (const Command& command : commands) add_common_options(*command.app, common);
   try {

@@ -30,6 +30,7 @@ struct Command {
 Command reshape_command(CLI::App& program, const CommonOptions& common);
 Command stylize_command(CLI::App& program, const CommonOptions& common);
 Command resize_command(CLI::App& program, const CommonOptions& common);
+std::vector<Command> template_commands(CLI::App& program, const CommonOptions& common);
 Command info_command(CLI::App& program, const CommonOptions& common);
 Command compare_command(CLI::App& program, const CommonOptions& common);
 Command demo_command(CLI::App& program, const CommonOptions& common);

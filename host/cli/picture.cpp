@@ -37,17 +37,22 @@ CLI::Option* add_picture_option(CLI::App& app, PictureOptions& options, const st
   return app.add_option("--picture", options.path, help)->group("Picture")->type_name("FILE.png");
 }
 
-std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options, const char* size_option) {
+std::vector<CLI::Option*> add_eye_options(CLI::App& app, PictureOptions& options, const char* size_option) {
   const std::string group = "Picture";
   options.size_option = size_option;
   CLI::Option* view = app.add_option("--view", options.view, "Direction towards the eye (one that shows most)")
                           ->type_name("X,Y,Z")
                           ->group(group);
-  CLI::Option* up = app.add_option("--up", options.up, "The axis that is up: x, y or z (y)")
-                        ->check(CLI::IsMember({"x", "y", "z"}))
-                        ->type_name("AXIS")
-                        ->group(group);
-  return {view, up, app.add_option(size_option, options.size, "Pixels (1600x900)")->type_name("WxH")->group(group)};
+  return {view, app.add_option(size_option, options.size, "Pixels (1600x900)")->type_name("WxH")->group(group)};
+}
+
+std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options, const char* size_option) {
+  std::vector<CLI::Option*> all = add_eye_options(app, options, size_option);
+  all.push_back(app.add_option("--up", options.up, "The axis that is up: x, y or z (y)")
+                    ->check(CLI::IsMember({"x", "y", "z"}))
+                    ->type_name("AXIS")
+                    ->group("Picture"));
+  return all;
 }
 
 void check(const PictureOptions& options, const char* option) {
@@ -62,8 +67,12 @@ void check(const PictureOptions& options, const char* option) {
 }
 
 RenderOptions render_options_of(const PictureOptions& options) {
+  return render_options_of(options, axis_named(options.up));
+}
+
+RenderOptions render_options_of(const PictureOptions& options, const Eigen::Vector3d& up) {
   RenderOptions render;
-  render.up = axis_named(options.up);
+  render.up = up;
   const std::vector<double> size = numbers_in(options.size, 'x');
   const auto is_side = [](double side) { return side >= 64 && side <= 16384 && side == std::floor(side); };
   if (size.size() != 2 || !is_side(size[0]) || !is_side(size[1])) {

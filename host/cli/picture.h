@@ -21,6 +21,9 @@ struct PictureOptions {
 /// --picture.
 CLI::Option* add_picture_option(CLI::App& app, PictureOptions& options, const std::string& help);
 
+/// --view and what sets the size.
+std::vector<CLI::Option*> add_eye_options(CLI::App& app, PictureOptions& options, const char* size_option = "--size");
+
 /// --view, --up and what sets the size.
 std::vector<CLI::Option*> add_view_options(CLI::App& app, PictureOptions& options, const char* size_option = "--size");
 
@@ -30,6 +33,8 @@ void check(const PictureOptions& options, const char* option = "--picture");
 
 /// Throws WrongUsage.
 RenderOptions render_options_of(const PictureOptions& options);
+/// The same where `up` is up.
+RenderOptions render_options_of(const PictureOptions& options, const Eigen::Vector3d& up);
 
 /// The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten: an end for a colour bar.
 double rounded_up(double value);

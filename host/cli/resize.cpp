@@ -21,14 +21,6 @@ struct Recipe {
   }
 };
 
-/// One of several equal parts of a whole call.
-ProgressFn part_of(const ProgressFn& progress, size_t part, size_t count) {
-  return [&progress, part, count](Progress now) {
-    now.fraction = (static_cast<double>(part) + now.fraction) / static_cast<double>(count);
-    return progress(now);
-  };
-}
-
 Resize plan_of(const MeshFile& file, const ResizeOptions& options) {
   try {
     return {file.mesh.positions, file.mesh.triangles, options};

@@ -30,8 +30,6 @@ void add_resize_options(CLI::App& app, ResizeJob& job);
 void check_job(const ResizeJob& job);
 /// All but the backend. Throws WrongUsage where the grid is not understood.
 ResizeOptions options_of(const ResizeJob& job);
-/// The name of a file of one of several results, from 0: a.obj is a_1.obj, a_2.obj, ... Of one result it is as given.
-std::string numbered(const std::string& path, size_t result, size_t count);
 
 /// A run that is done.
 struct Resized {

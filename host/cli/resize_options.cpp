@@ -1,7 +1,6 @@
 // The options of `swage resize`, and which of them go together.
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <filesystem>
 #include <numbers>
 
 #include "failure.h"
@@ -154,13 +153,6 @@ ResizeOptions options_of(const ResizeJob& job) {
     }
   }
   return options;
-}
-
-std::string numbered(const std::string& path, size_t result, size_t count) {
-  if (count == 1 || path.empty() || path == kStdout) return path;
-  std::filesystem::path file(path);
-  const std::string stem = file.stem().string(), extension = file.extension().string();
-  return file.replace_filename(fmt::format("{}_{}{}", stem, result + 1, extension)).string();
 }
 
 }  // namespace swage::cli
