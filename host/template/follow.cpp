@@ -22,6 +22,7 @@ constexpr double kLeastPart = 1.0 / 64;  // but this part of the way it goes at 
 constexpr int kSubEditPasses = 2;
 constexpr int kWholeMoves = 5;  // Of a pass.
 constexpr double kElastic = 0.05;
+constexpr double kBegin = 0.02;  // Of a sub-edit.
 constexpr double kNoTurn = 1e-9;
 constexpr int kIterations = 6;    // Of conjugate gradients in a pass,
 constexpr double kSolved = 1e-4;  // or until this part of the error is left.
@@ -109,11 +110,10 @@ double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
 
 }  // namespace
 
-double pass(EditPlan& plan, const VectorXd& parameters) {
-  const Positions before = plan.positions;
-  track(plan, parameters);
-  for (int i = 0; i < kWholeMoves && move_as_whole(plan); ++i) track(plan, parameters);
-  plan.parameters = parameters;
+namespace {
+
+/// By what tracking holds.
+void place(EditPlan& plan) {
   fit_maps(plan);
   const VectorXd right = residual(plan);
   VectorXd moved = VectorXd::Zero(right.size());
@@ -124,6 +124,26 @@ double pass(EditPlan& plan, const VectorXd& parameters) {
   };
   conjugate_gradients(times, precondition, right, kSolved, kIterations, moved, plan.work);
   plan.positions += rows(moved);
+}
+
+/// Goes with a sub-edit as its begin has it: past that, what moves by half of its thickness would be told of its other
+/// side.
+void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
+  track(plan, from);
+  const VectorXd gaps = plan.tracking.gaps;
+  track(plan, from + kBegin * (to - from));
+  plan.tracking.gaps = gaps + (plan.tracking.gaps - gaps) / kBegin;
+  if (!move_as_whole(plan)) place(plan);
+}
+
+}  // namespace
+
+double pass(EditPlan& plan, const VectorXd& parameters) {
+  const Positions before = plan.positions;
+  track(plan, parameters);
+  for (int i = 0; i < kWholeMoves && move_as_whole(plan); ++i) track(plan, parameters);
+  plan.parameters = parameters;
+  place(plan);
   return (plan.positions - before).rowwise().norm().maxCoeff();
 }
 
@@ -147,7 +167,9 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
         if (sub_edits == 0) track(plan, source);
         while (part > kLeastPart && jump_to(plan, along(at + part), field) > kJump * plan.diagonal) part /= 2;
       }
-      at = at + part > 1 - 1e-9 ? 1 : at + part;
+      const double next = at + part > 1 - 1e-9 ? 1 : at + part;
+      foresee(plan, along(at), along(next));
+      at = next;
       ++sub_edits;
       for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at);
     }
