@@ -57,7 +57,6 @@ struct EditPlan {
   std::unique_ptr<HeldLaplacian> about = {};  ///< The laplacian and a part of all tracking weights, factored.
   HeldPoints about_points = {};
   Lists rings = {};
-  std::vector<int> creases = {};
   Eigen::VectorXd rest_values = {};  ///< f_v
   Positions rest_normals = {};       ///< n_v
   Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
@@ -94,6 +93,10 @@ void evaluate(EditPlan& plan, const Positions& positions, const Eigen::VectorXd&
               FieldValues& field);
 /// Of where the mesh is.
 void track(EditPlan& plan, const Eigen::VectorXd& parameters);
+
+// edit_whole.cpp
+/// Moves, turns and scales the whole mesh where that is most of what it has to do. Whether it did.
+bool move_as_whole(EditPlan& plan);
 
 // follow.cpp
 /// Moves the mesh by one pass, and returns how far it moved a vertex at most.

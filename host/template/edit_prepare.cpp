@@ -1,8 +1,6 @@
 // All that depends on the rest shape alone.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <utility>
 
@@ -113,31 +111,6 @@ void make(EditPlan& plan, const ProgressFn& progress) {
   rest.pairs.normals = plan.rest_normals;
   if (plan.options.smoothing > 0) {
     join_neighbours(plan.edges, are_features(plan, unit_mesh), plan.options.smoothing * plan.diagonal, rest);
-  }
-  if (std::getenv("SW_CREASE")) {
-    const std::vector<char> is = are_features(plan, unit_mesh);
-    std::vector<char> on(static_cast<size_t>(unit_mesh.positions.rows()), 0);
-    for (Index e = 0; e < plan.edges.vertices.rows(); ++e)
-      if (is[static_cast<size_t>(e)])
-        for (int v : plan.edges.vertices.row(e)) on[static_cast<size_t>(v)] = 1;
-    for (int v = 0; v < unit_mesh.positions.rows(); ++v) {
-      if (!on[static_cast<size_t>(v)]) continue;
-      Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-      for (int p = rest.pairs.offsets[static_cast<size_t>(v)]; p < rest.pairs.offsets[static_cast<size_t>(v) + 1];
-           ++p) {
-        const Eigen::RowVector3d a =
-            rest.pairs.vertices.row(rest.pairs.pairs(p, 1)) - rest.pairs.vertices.row(rest.pairs.pairs(p, 0));
-        spread += rest.pairs.weights[p] * a.transpose() * a;
-      }
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> s(spread);
-      if (s.eigenvalues()[0] > 0.02 * s.eigenvalues()[2]) {
-        plan.creases.push_back(v);
-        rest.pairs.normals.row(v).setZero();
-        if (!rest.offsets.empty())
-          for (int k = rest.offsets[static_cast<size_t>(v)]; k < rest.offsets[static_cast<size_t>(v) + 1]; ++k)
-            rest.smoothing[k] = 0;
-      }
-    }
   }
   plan.local_map = backend.local_map(rest);
   if (plan.kind == EditMaps::rotated) plan.rotation = backend.rotation(plan.elements.pairs);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace swage {
 namespace {
@@ -33,7 +32,7 @@ void join_neighbours(const Edges& edges, const std::vector<char>& is_feature, do
   for (Eigen::Index e = 0; e < edges.vertices.rows(); ++e) {
     const int a = edges.vertices(e, 0), b = edges.vertices(e, 1);
     const bool across = on_feature[static_cast<size_t>(a)] != 0 || on_feature[static_cast<size_t>(b)] != 0;
-    if (across && (std::getenv("SW_CREASE") || is_feature[static_cast<size_t>(e)] == 0)) continue;
+    if (across && is_feature[static_cast<size_t>(e)] == 0) continue;
     joined.emplace_back(a, b);
     joined.emplace_back(b, a);
   }

@@ -1,7 +1,8 @@
 // Passes.
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 
 #include "anderson.h"
 #include "cancel.h"
@@ -12,20 +13,20 @@ namespace {
 
 using Eigen::Index;
 using Eigen::RowVector3d;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-double env(const char* n, double d) {
-  const char* s = std::getenv(n);
-  return s ? std::atof(s) : d;
-}
-
-const double kStep = env("SW_STEP", 0.02);  // Of D: no vertex goes farther for the template in a pass.
-const double kJump = env("SW_JUMP", 0.02);  // Of D: a sub-edit moves the template no farther.
-const double kLeastPart = 1.0 / env("SW_PARTS", 24);
-const int kSubEditPasses = (int)env("SW_SUB", 3);
-const int kIterations = (int)env("SW_CG", 6);  // Of conjugate gradients in a pass.
-const int kWindow = (int)env("SW_AND", 5);
-const double kSolved = 1e-4;
+constexpr double kStep = 0.02;           // Of D: no vertex goes farther for the template in a pass.
+constexpr double kJump = 0.01;           // Of D: a sub-edit moves the template no farther,
+constexpr double kLeastPart = 1.0 / 64;  // but this part of the way it goes at least.
+constexpr int kSubEditPasses = 2;
+constexpr int kWholeMoves = 5;  // Of a pass.
+constexpr double kElastic = 0.05;
+constexpr double kBegin = 0.02;  // Of a sub-edit.
+constexpr double kNoTurn = 1e-9;
+constexpr int kIterations = 6;    // Of conjugate gradients in a pass,
+constexpr double kSolved = 1e-4;  // or until this part of the error is left.
+constexpr int kWindow = 5;        // Passes that the next start is made of.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
 Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
@@ -64,13 +65,36 @@ VectorXd residual(const EditPlan& plan) {
   return result;
 }
 
+/// Unit vectors across a unit normal and each other.
+std::array<Vector3d, 2> across(const Vector3d& normal) {
+  const Vector3d first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
+/// Draws maps back towards the turns that they are nearest to, which take n to n' alike: what stretches does so evenly,
+/// and no more than the template asks for.
+void relax(EditPlan& plan) {
+#pragma omp parallel for schedule(static)
+  for (Index v = 0; v < plan.maps.rows(); ++v) {
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(plan.maps.row(v).data());
+    const Vector3d rest = plan.rest_normals.row(v), now = plan.tracking.normals.row(v);
+    const auto [x, y] = across(rest);
+    const auto [to_x, to_y] = across(now);
+    const Vector3d image_x = map * x, image_y = map * y;
+    const double sine = to_y.dot(image_x) - to_x.dot(image_y), cosine = to_x.dot(image_x) + to_y.dot(image_y);
+    const double length = std::hypot(sine, cosine);
+    if (!(length > kNoTurn)) continue;
+    const Vector3d turned_x = (cosine * to_x + sine * to_y) / length, turned_y = now.cross(turned_x);
+    map += kElastic * (now * rest.transpose() + turned_x * x.transpose() + turned_y * y.transpose() - map);
+  }
+}
+
 void fit_maps(EditPlan& plan) {
   if (plan.rotation) {
     plan.rotation->fit(plan.positions, {}, plan.maps);
   } else {
-    Positions normals = plan.tracking.normals;
-    for (const int v : plan.creases) normals.row(v).setZero();
-    plan.local_map->fit(plan.positions, normals, plan.maps);
+    plan.local_map->fit(plan.positions, plan.tracking.normals, plan.maps);
+    relax(plan);
   }
 }
 
@@ -86,9 +110,10 @@ double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
 
 }  // namespace
 
-double pass(EditPlan& plan, const VectorXd& parameters) {
-  track(plan, parameters);
-  plan.parameters = parameters;
+namespace {
+
+/// By what tracking holds.
+void place(EditPlan& plan) {
   fit_maps(plan);
   const VectorXd right = residual(plan);
   VectorXd moved = VectorXd::Zero(right.size());
@@ -99,7 +124,27 @@ double pass(EditPlan& plan, const VectorXd& parameters) {
   };
   conjugate_gradients(times, precondition, right, kSolved, kIterations, moved, plan.work);
   plan.positions += rows(moved);
-  return rows(moved).rowwise().norm().maxCoeff();
+}
+
+/// Goes with a sub-edit as its begin has it: past that, what moves by half of its thickness would be told of its other
+/// side.
+void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
+  track(plan, from);
+  const VectorXd gaps = plan.tracking.gaps;
+  track(plan, from + kBegin * (to - from));
+  plan.tracking.gaps = gaps + (plan.tracking.gaps - gaps) / kBegin;
+  if (!move_as_whole(plan)) place(plan);
+}
+
+}  // namespace
+
+double pass(EditPlan& plan, const VectorXd& parameters) {
+  const Positions before = plan.positions;
+  track(plan, parameters);
+  for (int i = 0; i < kWholeMoves && move_as_whole(plan); ++i) track(plan, parameters);
+  plan.parameters = parameters;
+  place(plan);
+  return (plan.positions - before).rowwise().norm().maxCoeff();
 }
 
 Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progress) {
@@ -122,7 +167,9 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
         if (sub_edits == 0) track(plan, source);
         while (part > kLeastPart && jump_to(plan, along(at + part), field) > kJump * plan.diagonal) part /= 2;
       }
-      at = at + part > 1 - 1e-9 ? 1 : at + part;
+      const double next = at + part > 1 - 1e-9 ? 1 : at + part;
+      foresee(plan, along(at), along(next));
+      at = next;
       ++sub_edits;
       for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at);
     }

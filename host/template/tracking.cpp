@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "edit_plan.h"
 
@@ -14,11 +13,7 @@ using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 constexpr double kNoSlope = 1e-6;
-
-double env(const char* n, double d) {
-  const char* s = std::getenv(n);
-  return s ? std::atof(s) : d;
-}
+constexpr double kTurned = 0.5;  // Cosine between what the field tells and what the neighbours do.
 
 Vector3d turned(const Vector3d& v, const Vector3d& from, const Vector3d& to) {
   const double cosine = from.dot(to);
@@ -38,7 +33,6 @@ Vector3d carried(const EditPlan& plan, const Positions& told, int v) {
 /// What the field turns against all its neighbours has come across a ridge, where it tells of another part: it faces
 /// as the neighbours have it.
 void straighten(const EditPlan& plan, Tracking& tracking) {
-  const double least = env("SW_TURN", 0.5);
   tracking.directions = tracking.normals;
   const Positions told = tracking.normals;
 #pragma omp parallel for schedule(static)
@@ -46,7 +40,7 @@ void straighten(const EditPlan& plan, Tracking& tracking) {
     const Vector3d expected = carried(plan, told, v);
     const double length = expected.norm();
     if (!(length > 1e-3)) continue;
-    if (tracking.weights[v] == 0 || expected.dot(told.row(v)) < least * length) {
+    if (tracking.weights[v] == 0 || expected.dot(told.row(v)) < kTurned * length) {
       tracking.normals.row(v) = expected / length;
     }
   }
