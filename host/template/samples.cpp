@@ -56,7 +56,10 @@ VolumeSamples volume_samples(const Mesh& mesh, const SurfaceDistance& distance, 
   for (Index s = 0; s < count; ++s) {
     const SurfaceDistance::Found found = distance(samples.points.row(s));
     samples.distances[s] = found.distance;
-    samples.is_signed[static_cast<size_t>(s)] = found.is_signed ? 1 : 0;
+    // Beyond its box nothing is inside.
+    const auto point = samples.points.row(s).array();
+    const bool is_beyond = (point < low.array()).any() || (point > high.array()).any();
+    samples.is_signed[static_cast<size_t>(s)] = found.is_signed || is_beyond ? 1 : 0;
   }
   return samples;
 }
