@@ -28,7 +28,7 @@ struct TemplatePose {
 
 struct FitOptions {
   int surface_samples = 4000;        ///< |S|, [100, 10 million].
-  int volume_samples = 4000;         ///< |V|, [0, 10 million], in 1.5 times the mesh's box.
+  int volume_samples = 4000;         ///< |V|, [0, 10 million], in 1.5 times the mesh's box, or D / 4 about it.
   double alpha = 0.3;                ///< Of eq. 1, at least 0: of the mean over V against that over S.
   int sigmas = 4;                    ///< Passes, [1, 20], their sigma from the box diagonal D
   double least_sigma = 0.2;          ///< to this part of it, geometrically. (0, 1].
