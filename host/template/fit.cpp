@@ -103,12 +103,14 @@ class Fit {
       minimise_by(attempts[i], 0, kFirstIterations);
       minimise_by(attempts[i], options_.sigmas - 1, kFirstIterations);
     }
+    rank(attempts);
     keep_best(attempts, kFinalists);
     for (size_t i = 0; i < attempts.size(); ++i) {
       stages_.begin("fit", 0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(attempts.size()));
       use(attempts[i], all_);
       for (int s = 0; s < options_.sigmas; ++s) minimise_by(attempts[i], s, options_.iterations);
     }
+    rank(attempts);
     keep_best(attempts, 1);
     finish(attempts[0], distance.closed_area());
     return std::move(result_);
@@ -145,6 +147,15 @@ class Fit {
     attempt.objective = std::make_unique<Objective>(template_, samples, attempt.pose, diagonal_, options_.alpha, *step_,
                                                     stages_.poll());
     if (options_.pose) attempt.objective->hold_offset();
+  }
+
+  /// By the whole space about the mesh: what the template has far from it counts too.
+  static void rank(std::vector<Attempt>& attempts) {
+    VectorXd gradient;
+    for (Attempt& attempt : attempts) {
+      attempt.objective->set_sigma(1);
+      attempt.minimum.energy = (*attempt.objective)(attempt.minimum.x, gradient);
+    }
   }
 
   static void keep_best(std::vector<Attempt>& attempts, size_t count) {

@@ -13,6 +13,8 @@ using Eigen::Index;
 using Eigen::RowVector3d;
 
 constexpr double kLarger = 1.5;
+constexpr double kAbout =
+    0.25;  // Of the diagonal, at least: a thin mesh has much about it that a template may reach into.
 
 /// In [0, 1): the same on every machine.
 class Random {
@@ -47,7 +49,9 @@ Positions surface_samples(const Mesh& mesh, int count, unsigned seed) {
 VolumeSamples volume_samples(const Mesh& mesh, const SurfaceDistance& distance, int count, unsigned seed) {
   Random random(seed);
   const RowVector3d low = mesh.positions.colwise().minCoeff(), high = mesh.positions.colwise().maxCoeff();
-  const RowVector3d middle = 0.5 * (low + high), half = 0.5 * kLarger * (high - low);
+  const RowVector3d middle = 0.5 * (low + high);
+  const RowVector3d half =
+      (0.5 * kLarger * (high - low)).array().max(0.5 * (high - low).array() + kAbout * (high - low).norm());
   VolumeSamples samples{Positions(count, 3), Eigen::VectorXd(count), std::vector<char>(static_cast<size_t>(count))};
   for (Index s = 0; s < count; ++s) {
     for (int u = 0; u < 3; ++u) samples.points(s, u) = middle[u] + (2 * random() - 1) * half[u];
@@ -56,7 +60,10 @@ VolumeSamples volume_samples(const Mesh& mesh, const SurfaceDistance& distance, 
   for (Index s = 0; s < count; ++s) {
     const SurfaceDistance::Found found = distance(samples.points.row(s));
     samples.distances[s] = found.distance;
-    samples.is_signed[static_cast<size_t>(s)] = found.is_signed ? 1 : 0;
+    // Beyond its box nothing is inside.
+    const auto point = samples.points.row(s).array();
+    const bool is_beyond = (point < low.array()).any() || (point > high.array()).any();
+    samples.is_signed[static_cast<size_t>(s)] = found.is_signed || is_beyond ? 1 : 0;
   }
   return samples;
 }

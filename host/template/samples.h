@@ -15,7 +15,7 @@ struct VolumeSamples {
   std::vector<char> is_signed;
 };
 
-/// At random in 1.5 times the mesh's box.
+/// At random in 1.5 times the mesh's box, and a quarter of its diagonal about it at least.
 VolumeSamples volume_samples(const Mesh& mesh, const SurfaceDistance& distance, int count, unsigned seed);
 
 }  // namespace swage

@@ -28,10 +28,10 @@ struct TemplatePose {
 
 struct FitOptions {
   int surface_samples = 4000;        ///< |S|, [100, 10 million].
-  int volume_samples = 2000;         ///< |V|, [0, 10 million], in 1.5 times the mesh's box.
-  double alpha = 0.1;                ///< Of eq. 1, at least 0: of the mean over V against that over S.
+  int volume_samples = 4000;         ///< |V|, [0, 10 million], in 1.5 times the mesh's box, or D / 4 about it.
+  double alpha = 0.3;                ///< Of eq. 1, at least 0: of the mean over V against that over S.
   int sigmas = 4;                    ///< Passes, [1, 20], their sigma from the box diagonal D
-  double least_sigma = 0.03;         ///< to this part of it, geometrically. (0, 1].
+  double least_sigma = 0.2;          ///< to this part of it, geometrically. (0, 1].
   int iterations = 100;              ///< Of each pass, at least 1.
   char up = 0;                       ///< The mesh's: 'x', 'y', 'z', or 0: y or z, whichever fits better.
   bool turns = true;                 ///< Whether the mesh is tried in four directions about it.
