@@ -18,10 +18,13 @@ using Eigen::Vector3d;
 using nlohmann::json;
 using testing::HasSubstr;
 
+/// Of boxes, which fit as well lying as standing.
+const Arguments kFitting = kQuick + Arguments{"--up", "y"};
+
 /// With a fit of the box template to the mesh, made once.
 struct TemplateEditing : Templating {
   TemplateEditing() {
-    static const std::string made = out_of(Arguments{"fit", model_, "--template", "box", "--json", "-"} + kQuick);
+    static const std::string made = out_of(Arguments{"fit", model_, "--template", "box", "--json", "-"} + kFitting);
     write_text(fit_, made);
   }
 
@@ -79,7 +82,7 @@ TEST_F(TemplateEditing, WithoutAnEditNothingMoves) {
 
 TEST_F(TemplateEditing, AFitOnTheSpotIsTheSame) {
   const std::string set = "width*=1.5";
-  const Arguments spot = Arguments{"edit", model_, "--template", "box", "--set", set} + kQuick;
+  const Arguments spot = Arguments{"edit", model_, "--template", "box", "--set", set} + kFitting;
   EXPECT_TRUE(out_of(spot + Arguments{"-o", "-"}) == out_of(edit_ + Arguments{"--set", set, "-o", "-"}));
   const json told = report(spot), by_file = report(edit_ + Arguments{"--template", "box", "--set", set});
   EXPECT_EQ(told["parameters"], by_file["parameters"]);
@@ -201,7 +204,7 @@ TEST_F(TemplateEditing, OptionsOfTheSolveCount) {
 
 TEST_F(TemplateEditing, RetargetingIsTheLibrarys) {
   write_mesh(file("target.obj"), transformed(box({2, 1, 1}, 5), 3, {10, 0, -5}));
-  const Arguments retarget = Arguments{"retarget", model_, file("target.obj"), "--template", "box"} + kQuick;
+  const Arguments retarget = Arguments{"retarget", model_, file("target.obj"), "--template", "box"} + kFitting;
   const Mesh made = mesh_of(retarget);
   const MeshFile source = read_mesh(model_), target = read_mesh(file("target.obj"));
   RetargetOptions options;
@@ -219,14 +222,14 @@ TEST_F(TemplateEditing, RetargetingIsTheLibrarys) {
 TEST_F(TemplateEditing, RetargetingTakesFitsToo) {
   write_mesh(file("target.obj"), transformed(box({2, 1, 1}, 5), 3, {10, 0, -5}));
   const Arguments retarget{"retarget", model_, file("target.obj")};
-  const std::string usual = out_of(retarget + Arguments{"--template", "box", "-o", "-"} + kQuick);
-  out_of(Arguments{"fit", file("target.obj"), "--template", "box", "--json", file("target.json")} + kQuick);
-  EXPECT_TRUE(out_of(retarget + Arguments{"--source-fit", fit_, "-o", "-"} + kQuick) == usual);
-  EXPECT_TRUE(out_of(retarget + Arguments{"--target-fit", file("target.json"), "-o", "-"} + kQuick) == usual);
+  const std::string usual = out_of(retarget + Arguments{"--template", "box", "-o", "-"} + kFitting);
+  out_of(Arguments{"fit", file("target.obj"), "--template", "box", "--json", file("target.json")} + kFitting);
+  EXPECT_TRUE(out_of(retarget + Arguments{"--source-fit", fit_, "-o", "-"} + kFitting) == usual);
+  EXPECT_TRUE(out_of(retarget + Arguments{"--target-fit", file("target.json"), "-o", "-"} + kFitting) == usual);
   EXPECT_TRUE(out_of(retarget + Arguments{"--source-fit", fit_, "--target-fit", file("target.json"), "-o", "-"}) ==
               usual);
   const json told =
-      report(retarget + Arguments{"--source-fit", fit_, "--template", "box", "-o", file("out.obj")} + kQuick);
+      report(retarget + Arguments{"--source-fit", fit_, "--template", "box", "-o", file("out.obj")} + kFitting);
   expect_keys(told, {"command", "input", "target", "template", "parameters", "pose", "parameters_before", "pose_before",
                      "source_fit", "target_fit", "residual", "largest", "flipped_triangles", "iterations", "stop",
                      "seconds", "warnings", "template_document"});
@@ -276,7 +279,7 @@ TEST_F(TemplateEditing, PicturesAreMadeOrTheBuildSaysWhyNot) {
   write_mesh(file("target.obj"), box({2, 1, 1}, 3));
   for (const Arguments& arguments :
        {edit_ + Arguments{"--set", "width*=1.2,2"},
-        Arguments{"retarget", model_, file("target.obj"), "--source-fit", fit_} + kQuick,
+        Arguments{"retarget", model_, file("target.obj"), "--source-fit", fit_} + kFitting,
         Arguments{"interpolate", model_, "--fit", fit_, "--set", "width*=2", "--frames", "12", "--passes", "20"}}) {
     const std::string path = file(arguments.front() + ".png");
     const Outcome outcome = ask(arguments + Arguments{"--picture", path, "--picture-size", "400x200"});
