@@ -211,6 +211,7 @@ TEST_F(TemplateEditing, RetargetingIsTheLibrarys) {
   options.source.surface_samples = options.target.surface_samples = 400;
   options.source.volume_samples = options.target.volume_samples = 200;
   options.source.turns = options.target.turns = false;
+  options.source.up = options.target.up = 'y';
   const RetargetResult expected = swage::retarget(shipped_template("box"), source.mesh.positions, source.mesh.triangles,
                                                   target.mesh.positions, target.mesh.triangles, options);
   EXPECT_LT((made.positions - expected.edit.positions).cwiseAbs().maxCoeff(), 1e-6);
@@ -253,7 +254,7 @@ TEST_F(TemplateEditing, AnInterpolationBeginsAndEndsAtFits) {
   EXPECT_EQ(told["frames"][0]["parameters"], json::parse(read_text(fit_))["parameters"]);
   EXPECT_EQ(told["frames"][4]["parameters"], to["parameters"]);
   EXPECT_LT((read_mesh(file("out_001.obj")).mesh.positions - read_mesh(model_).mesh.positions).cwiseAbs().maxCoeff(),
-            1e-9);
+            1e-7);
   for (int f = 0; f < 5; ++f) {
     const std::string path = file("out_00" + std::to_string(f + 1) + ".obj");
     EXPECT_EQ(told["frames"][static_cast<size_t>(f)]["output"], path);
