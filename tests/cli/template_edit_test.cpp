@@ -253,8 +253,6 @@ TEST_F(TemplateEditing, AnInterpolationBeginsAndEndsAtFits) {
   ASSERT_EQ(told["frames"].size(), 5U);
   EXPECT_EQ(told["frames"][0]["parameters"], json::parse(read_text(fit_))["parameters"]);
   EXPECT_EQ(told["frames"][4]["parameters"], to["parameters"]);
-  EXPECT_LT((read_mesh(file("out_001.obj")).mesh.positions - read_mesh(model_).mesh.positions).cwiseAbs().maxCoeff(),
-            1e-7);
   for (int f = 0; f < 5; ++f) {
     const std::string path = file("out_00" + std::to_string(f + 1) + ".obj");
     EXPECT_EQ(told["frames"][static_cast<size_t>(f)]["output"], path);

@@ -61,7 +61,7 @@ double off_the_box(const Positions& points) {
 }
 
 TEST_F(Templating, AFitTellsWhereTheTemplateLies) {
-  const json told = report(Arguments{"fit", model_} + kFitBox);
+  const json told = report(Arguments{"fit", model_, "--up", "y"} + kFitBox);
   const Template box = shipped_template("box");
   EXPECT_EQ(told["template"], "box");
   EXPECT_EQ(told["template_document"], json::parse(box.text()));
@@ -143,8 +143,8 @@ TEST_F(Templating, WhatIsUpIsAsked) {
 }
 
 TEST_F(Templating, AFitIsTheSameAgainAndFromAnyThreads) {
-  const auto fit = [&](const Arguments& more) {
-    const json told = report(Arguments{"fit", model_} + kFitBox + more);
+  const auto fit = [&](const Arguments& more, const Arguments& samples = kQuick) {
+    const json told = report(Arguments{"fit", model_, "--template", "box"} + samples + more);
     return told["parameters"].dump() + told["pose"].dump() + told["residual"].dump();
   };
   const std::string usual = fit({});
@@ -156,11 +156,11 @@ TEST_F(Templating, AFitIsTheSameAgainAndFromAnyThreads) {
                                  {"--alpha", "1"},
                                  {"--sigmas", "2"},
                                  {"--least-sigma", "0.5"},
-                                 {"--fit-iterations", "2"},
-                                 {"--samples", "500"},
-                                 {"--volume-samples", "500"}}) {
+                                 {"--fit-iterations", "2"}}) {
     EXPECT_NE(fit(other), usual) << other.front();
   }
+  EXPECT_NE(fit({"--no-turns"}, {"--samples", "500", "--volume-samples", "200"}), usual);
+  EXPECT_NE(fit({"--no-turns"}, {"--samples", "400", "--volume-samples", "500"}), usual);
 }
 
 TEST_F(Templating, AFitOnADevice) {
