@@ -31,12 +31,12 @@ struct InterpolateJob : EditFiles {
 /// Of a frame, from 0: in place of %d or %03d, or else before the extension;
 /// wide enough to be sorted by name.
 std::string frame_path(const std::string& path, int frame, int count) {
-  static const std::regex place("%(0?)([0-9]?)d");
+  static const std::regex kPlace("%(0?)([0-9]?)d");
   if (path.empty()) return path;
   const std::filesystem::path file(path);
   const std::string name = file.filename().string(), number = std::to_string(frame + 1);
   std::smatch found;
-  const bool is_told = std::regex_search(name, found, place);
+  const bool is_told = std::regex_search(name, found, kPlace);
   const size_t width = is_told ? (found[2].length() > 0 ? std::stoul(found[2]) : 1) : std::to_string(count).size();
   const std::string padded = std::string(width - std::min(width, number.size()), '0') + number;
   const std::string numbered = is_told ? found.prefix().str() + padded + found.suffix().str()
