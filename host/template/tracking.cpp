@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kNoSlope = 1e-6;
 constexpr double kNoTurn = 1e-3;
-constexpr double kTurned = 0.5;  // Cosine between a normal and the last one.
+constexpr double kTurned = 0.95;  // Cosine between a normal and the last one.
 
 Vector3d turned(const Vector3d& v, const Vector3d& from, const Vector3d& to) {
   const double cosine = from.dot(to);
