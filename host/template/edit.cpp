@@ -61,6 +61,12 @@ TemplateEditResult TemplateEdit::solve(const Eigen::VectorXd& target, const Prog
   check_parameters(plan_->of, target, "target");
   if (!prepare(progress)) return cancelled(*plan_);
   reset(*plan_);
+  if (target == plan_->source) {
+    // Nothing to follow: passes would only add up rounding.
+    Report report;
+    report.stop = Termination::moved_little;
+    return told(*plan_, 0, result_of(*plan_, target, std::move(report)));
+  }
   return advanced(*plan_, target, after_preparation(progress));
 }
 
