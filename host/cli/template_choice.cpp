@@ -105,7 +105,6 @@ void Settings::check_single() const {
 
 void Settings::check(const Setting& setting, double value) const {
   const auto& [name, group, description, usual, least, most] = setting.bounds;
-  if (!std::isfinite(value)) throw WrongUsage(fmt::format("--set {}: {} is no longer finite", setting.text, name));
   if (beyond_ || (value >= least && value <= most)) return;
   throw WrongUsage(fmt::format("--set {}: {} would be {}, and is from {} to {} (--beyond: let it leave them)",
                                setting.text, name, number_words(value), number_words(least), number_words(most)));
@@ -116,6 +115,9 @@ Eigen::VectorXd Settings::on(Eigen::VectorXd values, size_t result) const {
     double& value = values[setting.parameter];
     const double by = setting.value_of(result);
     value = setting.change == '*' ? value * by : setting.change == '+' ? value + by : by;
+    if (!std::isfinite(value)) {
+      throw WrongUsage(fmt::format("--set {}: {} is no longer finite", setting.text, setting.name));
+    }
   }
   for (const Setting& setting : settings_) check(setting, values[setting.parameter]);
   return values;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,11 @@
 
 namespace swage::cli {
 
-/// --samples, --up and the like. Those that are given are WrongUsage where one of `excluded` is.
+/// An axis or auto, which is 0.
+CLI::Option* add_up_option(CLI::App& app, const char* name, const std::function<void(char)>& set,
+                           const std::string& help);
+
+/// --up, --samples and the like.
 std::vector<CLI::Option*> add_fitting_options(CLI::App& app, FitOptions& options);
 
 /// At how many points the field is asked for.

@@ -2,6 +2,7 @@
 // template in another mesh.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -17,14 +18,15 @@ namespace swage::cli {
 namespace {
 
 struct RetargetJob : EditFiles {  // MESH is the source.
-  std::string target, name, source_fit, target_fit, target_up;
+  std::string target, name, source_fit, target_fit;
+  std::optional<char> target_up;  ///< As that of the source where it is not given.
   FitOptions fitting;
   TemplateEditOptions options;
   PictureOptions picture;
 
   FitOptions fitting_of_target() const {
     FitOptions of_target = fitting;
-    if (!target_up.empty()) of_target.up = target_up[0];
+    of_target.up = target_up.value_or(fitting.up);
     return of_target;
   }
 };
@@ -188,10 +190,8 @@ Command template_retarget_command(CLI::App& group, const CommonOptions& common) 
   CLI::Option* const target_fit =
       app->add_option("--target-fit", job->target_fit, "The same of the target")->type_name("FIT.json");
   add_fitting_options(*app, job->fitting);
-  app->add_option("--target-up", job->target_up, "The axis of the target that is up (as --up)")
-      ->group("Fit")
-      ->check(CLI::IsMember({"x", "y", "z"}))
-      ->type_name("AXIS")
+  add_up_option(
+      *app, "--target-up", [&target_up = job->target_up](char up) { target_up = up; }, "That of the target (as --up)")
       ->excludes(target_fit);
   add_editing_options(*app, job->options);
   CLI::Option* const picture = add_picture_option(*app, job->picture, "Source, target and result, side by side");

@@ -191,8 +191,7 @@ TEST_F(TemplateFile, WhatCannotBeAMesh) {
   }
   expect(2, "--picture-size requires --picture", mesh + Arguments{"-o", file("out.obj"), "--picture-size", "64x64"});
   // Larger than where surfaces are looked for.
-  expect(4, "64", mesh + Arguments{"-o", file("out.obj"), "--beyond", "--set", "radius=1000"});
-  expect(4, "surface", mesh + Arguments{"-o", file("out.obj"), "--beyond", "--set", "radius=-1"});
+  expect(4, "no surface", mesh + Arguments{"-o", file("out.obj"), "--beyond", "--set", "radius=1000"});
   expect(2, "excludes --text", {"show", ball_, "--text", "--json", file("a.json")});
 }
 

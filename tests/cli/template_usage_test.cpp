@@ -52,8 +52,8 @@ struct TemplateUsage : Templating {
 TEST_F(TemplateUsage, AFitWrittenByHandIsTaken) {
   EXPECT_EQ(ask(edit_ + Arguments{"-o", file("out.obj")}).code, 0);
   const Positions positions = read_mesh(file("out.obj")).mesh.positions;
-  EXPECT_NEAR(positions.col(0).minCoeff(), -0.1, 1e-2);
-  EXPECT_NEAR(positions.col(0).maxCoeff(), 1.1, 1e-2);
+  EXPECT_NEAR(positions.col(0).minCoeff(), -0.1, 0.02);
+  EXPECT_NEAR(positions.col(0).maxCoeff(), 1.1, 0.02);
 }
 
 TEST_F(TemplateUsage, FitsThatLackSomething) {

@@ -8,8 +8,6 @@ namespace swage::test {
 
 using nlohmann::json;
 
-const Arguments kQuick{"--samples", "400", "--volume-samples", "200", "--no-turns"};
-
 Templating::Templating() { write_text(model_, box_obj()); }
 
 Outcome Templating::ask(Arguments arguments) const {

@@ -33,7 +33,7 @@ class Templating : public testing::Test {
 Arguments operator+(Arguments a, const Arguments& b);
 
 /// A fit of few samples: quick, and near enough for a box.
-extern const Arguments kQuick;
+inline const Arguments kQuick{"--samples", "400", "--volume-samples", "200", "--no-turns"};
 
 void expect_keys(const nlohmann::json& told, const std::vector<std::string>& keys);
 
