@@ -35,7 +35,14 @@ TemplateEditResult advanced(EditPlan& plan, const Eigen::VectorXd& target, const
   TemplateEditResult result;
   {
     const Stopwatch watch(seconds);
-    result = result_of(plan, target, advance(plan, target, progress));
+    Report report;
+    if (target == plan.source) {
+      reset(plan);
+      report.stop = Termination::moved_little;
+    } else {
+      report = advance(plan, target, progress);
+    }
+    result = result_of(plan, target, std::move(report));
   }
   return told(plan, seconds, std::move(result));
 }
@@ -61,12 +68,6 @@ TemplateEditResult TemplateEdit::solve(const Eigen::VectorXd& target, const Prog
   check_parameters(plan_->of, target, "target");
   if (!prepare(progress)) return cancelled(*plan_);
   reset(*plan_);
-  if (target == plan_->source) {
-    // Nothing to follow: passes would only add up rounding.
-    Report report;
-    report.stop = Termination::moved_little;
-    return told(*plan_, 0, result_of(*plan_, target, std::move(report)));
-  }
   return advanced(*plan_, target, after_preparation(progress));
 }
 
