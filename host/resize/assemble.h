@@ -33,8 +33,8 @@ struct GridVertices {
 ///   + 0.05 phi (x_2 - x_1)² on its eight others,
 /// where the outer faces across u are the asked size apart and no edge along u is shorter than
 /// kLeastEdge min(1, S_u) h_u. Edges of that length do not keep a sheared cell from folding: phi of cells that do is
-/// raised tenfold, and all is solved again, until none does. Where that does not help, the grid goes as far towards plain
-/// scaling as it takes, and has not converged. Deterministic: the same bytes from any number of threads.
+/// raised tenfold, and all is solved again, until none does. Where that does not help, the grid goes as far towards
+/// plain scaling as it takes, and has not converged. Deterministic: the same bytes from any number of threads.
 class Assembly {
  public:
   /// All that does not depend on the scales. Throws InvalidInput.

@@ -35,7 +35,14 @@ TemplateEditResult advanced(EditPlan& plan, const Eigen::VectorXd& target, const
   TemplateEditResult result;
   {
     const Stopwatch watch(seconds);
-    result = result_of(plan, target, advance(plan, target, progress));
+    Report report;
+    if (target == plan.source) {
+      reset(plan);
+      report.stop = Termination::moved_little;
+    } else {
+      report = advance(plan, target, progress);
+    }
+    result = result_of(plan, target, std::move(report));
   }
   return told(plan, seconds, std::move(result));
 }

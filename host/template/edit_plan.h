@@ -97,6 +97,9 @@ void track(EditPlan& plan, const Eigen::VectorXd& parameters);
 // edit_whole.cpp
 /// Moves, turns and scales the whole mesh where that is most of what it has to do. Whether it did.
 bool move_as_whole(EditPlan& plan);
+/// Moves the mesh to where the target's template is where that is the source's, moved, turned and scaled. False, and
+/// nothing has moved, where it is not.
+bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target);
 
 // follow.cpp
 /// Moves the mesh by one pass, and returns how far it moved a vertex at most.

@@ -18,44 +18,96 @@ using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr double kLeft = 0.25;     // A motion that leaves more of the squared gaps is none of the whole.
 constexpr double kStill = 1e-7;    // Of D: smaller gaps are none.
+constexpr double kUntold = 0.3;    // Of the mean gap: what a motion of the whole may leave along the way.
+constexpr int kSteps = 16;         // Of a motion of the whole,
+constexpr int kMoves = 3;          // and how often each is corrected,
+constexpr int kLastMoves = 12;     // and the last.
 constexpr double kDamping = 1e-9;  // A ball may turn in place.
 
-}  // namespace
+/// By which the tracking rows are met best, about the middle; and what it leaves of the squared gaps.
+struct Whole {
+  Motion motion = Motion::Zero();
+  RowVector3d middle = RowVector3d::Zero();
+  double square = 0, left = 0;
+};
 
-bool move_as_whole(EditPlan& plan) {
+Whole best_motion(const EditPlan& plan) {
   const Tracking& tracking = plan.tracking;
   const double mass = tracking.weights.sum();
-  if (!(mass > 0)) return false;
-  const RowVector3d middle = tracking.weights.transpose() * plan.positions / mass;
+  Whole whole;
+  if (!(mass > 0)) return whole;
+  whole.middle = tracking.weights.transpose() * plan.positions / mass;
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
   Motion right = Motion::Zero();
-  double square = 0;
   for (Index v = 0; v < plan.positions.rows(); ++v) {
-    const Vector3d at = plan.positions.row(v) - middle, direction = tracking.directions.row(v);
+    const Vector3d at = plan.positions.row(v) - whole.middle, direction = tracking.directions.row(v);
     Motion row;
     row << direction, at.cross(direction), direction.dot(at);
     const double weight = tracking.weights[v], gap = tracking.gaps[v];
     matrix += weight * row * row.transpose();
     right += weight * gap * row;
-    square += weight * gap * gap;
+    whole.square += weight * gap * gap;
   }
-  const double still = kStill * plan.diagonal;
-  if (!(square > mass * still * still)) return false;
   matrix.diagonal().array() += kDamping * matrix.trace();
-  const Motion motion = matrix.ldlt().solve(right);
-  if (!(square - right.dot(motion) < kLeft * square)) return false;
-  const Vector3d turn = motion.segment<3>(3);
+  whole.motion = matrix.ldlt().solve(right);
+  whole.left = whole.square - right.dot(whole.motion);
+  return whole;
+}
+
+void move(EditPlan& plan, const Whole& whole) {
+  const Vector3d turn = whole.motion.segment<3>(3);
   const double angle = turn.norm();
   const Eigen::Matrix3d rotation =
       angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
-  const Positions about = plan.positions.rowwise() - middle;
-  plan.positions =
-      (std::exp(motion[6]) * about * rotation.transpose()).rowwise() + (middle + motion.head<3>().transpose());
+  const Positions about = plan.positions.rowwise() - whole.middle;
+  plan.positions = (std::exp(whole.motion[6]) * about * rotation.transpose()).rowwise() +
+                   (whole.middle + whole.motion.head<3>().transpose());
   for (Index v = 0; v < plan.maps.rows(); ++v) {
     Eigen::Map<Rows> map(plan.maps.row(v).data());
     map = (rotation * map).eval();
   }
+}
+
+/// Root mean square of the gaps.
+double mean_gap(const EditPlan& plan) {
+  const Eigen::VectorXd& weights = plan.tracking.weights;
+  const double mass = weights.sum();
+  return mass > 0 ? std::sqrt(weights.dot(plan.tracking.gaps.cwiseAbs2()) / mass) : 0;
+}
+
+}  // namespace
+
+bool move_as_whole(EditPlan& plan) {
+  const Whole whole = best_motion(plan);
+  const double still = kStill * plan.diagonal;
+  if (!(whole.square > plan.tracking.weights.sum() * still * still)) return false;
+  if (!(whole.left < kLeft * whole.square)) return false;
+  move(plan, whole);
   return true;
+}
+
+bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target) {
+  const Eigen::VectorXd source = plan.parameters;
+  const Positions positions = plan.positions;
+  const Transforms maps = plan.maps;
+  const auto explained = [&] {
+    for (int step = 1; step <= kSteps; ++step) {
+      const double part = static_cast<double>(step) / kSteps;
+      const Eigen::VectorXd parameters = source + part * (target - source);
+      track(plan, parameters);
+      const double before = mean_gap(plan);
+      for (int i = 0; i < (step == kSteps ? kLastMoves : kMoves); ++i) {
+        move(plan, best_motion(plan));
+        track(plan, parameters);
+      }
+      if (!(mean_gap(plan) <= std::max(kUntold * before, kStill * plan.diagonal))) return false;
+    }
+    return mean_gap(plan) <= kStill * plan.diagonal;
+  };
+  if (explained()) return true;
+  plan.positions = positions;
+  plan.maps = maps;
+  return false;
 }
 
 }  // namespace swage

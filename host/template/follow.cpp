@@ -160,6 +160,7 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
   FieldValues field;
   double at = 0;
   int sub_edits = 0;
+  if (follow_as_whole(plan, target)) at = 1;
   try {
     while (at < 1 && report.passes < plan.options.passes) {
       double part = plan.options.sub_edits > 0 ? 1.0 / plan.options.sub_edits : 1 - at;

@@ -13,7 +13,8 @@ using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 constexpr double kNoSlope = 1e-6;
-constexpr double kTurned = 0.5;  // Cosine between what the field tells and what the neighbours do.
+constexpr double kNoTurn = 1e-3;
+constexpr double kTurned = 0.95;  // Cosine between a normal and the last one.
 
 Vector3d turned(const Vector3d& v, const Vector3d& from, const Vector3d& to) {
   const double cosine = from.dot(to);
@@ -22,27 +23,35 @@ Vector3d turned(const Vector3d& v, const Vector3d& from, const Vector3d& to) {
   return cosine * v + axis.cross(v) + axis * (axis.dot(v) / (1 + cosine));
 }
 
-/// Where the neighbours' turns take a vertex's rest normal.
-Vector3d carried(const EditPlan& plan, const Positions& told, int v) {
-  const Vector3d rest = plan.rest_normals.row(v);
-  Vector3d sum = Vector3d::Zero();
-  for (const int w : plan.rings[v]) sum += turned(rest, plan.rest_normals.row(w), told.row(w));
-  return sum;
+Vector3d last_normal(const EditPlan& plan, Index v) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(plan.maps.row(v).data());
+  return (map * plan.rest_normals.row(v).transpose()).normalized();
 }
 
-/// What the field turns against all its neighbours has come across a ridge, where it tells of another part: it faces
-/// as the neighbours have it.
+/// Where the turns of those neighbours that did not jump take a vertex's rest normal; where all did, its last one.
+Vector3d carried(const EditPlan& plan, const Tracking& tracking, const std::vector<char>& jumped, int v) {
+  const Vector3d rest = plan.rest_normals.row(v);
+  Vector3d sum = Vector3d::Zero();
+  for (const int w : plan.rings[v]) {
+    if (jumped[static_cast<size_t>(w)] == 0) sum += turned(rest, plan.rest_normals.row(w), tracking.normals.row(w));
+  }
+  return sum.norm() > kNoTurn ? sum.normalized() : last_normal(plan, v);
+}
+
+/// What the field suddenly turns has come across a ridge, where it tells of another part: it faces as its neighbours
+/// have it.
 void straighten(const EditPlan& plan, Tracking& tracking) {
-  tracking.directions = tracking.normals;
-  const Positions told = tracking.normals;
+  const int count = plan.rings.size();
+  std::vector<char> jumped(static_cast<size_t>(count));
 #pragma omp parallel for schedule(static)
-  for (int v = 0; v < plan.rings.size(); ++v) {
-    const Vector3d expected = carried(plan, told, v);
-    const double length = expected.norm();
-    if (!(length > 1e-3)) continue;
-    if (tracking.weights[v] == 0 || expected.dot(told.row(v)) < kTurned * length) {
-      tracking.normals.row(v) = expected / length;
-    }
+  for (int v = 0; v < count; ++v) {
+    const bool turns = last_normal(plan, v).dot(tracking.normals.row(v)) < kTurned;
+    jumped[static_cast<size_t>(v)] = tracking.weights[v] == 0 || turns ? 1 : 0;
+  }
+  tracking.directions = tracking.normals;
+#pragma omp parallel for schedule(static)
+  for (int v = 0; v < count; ++v) {
+    if (jumped[static_cast<size_t>(v)] != 0) tracking.normals.row(v) = carried(plan, tracking, jumped, v);
   }
   tracking.directions = 0.5 * (tracking.directions + tracking.normals);
 }
@@ -70,8 +79,7 @@ void track(EditPlan& plan, const Eigen::VectorXd& parameters) {
       tracking.normals.row(v) = gradient / slope;
       tracking.gaps[v] = gap;
     } else {
-      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(plan.maps.row(v).data());
-      tracking.normals.row(v) = (map * plan.rest_normals.row(v).transpose()).normalized();
+      tracking.normals.row(v) = last_normal(plan, v);
       tracking.gaps[v] = tracking.weights[v] = 0;
     }
   }
