@@ -281,26 +281,17 @@ void add_field() {
   });
 }
 
-Positions mean_normals(const Mesh& mesh) {
-  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
-  Positions sums = Positions::Zero(mesh.positions.rows(), 3);
-  for (Index corner = 0; corner < mesh.triangles.size(); ++corner) {
-    sums.row(mesh.triangles.data()[corner]) += areas.row(corner / 3);
-  }
-  return normalised(sums);
-}
-
 /// An element a vertex: its spokes and rims with their edges, two normals, a position, and a map.
 void add_local_map() {
   add_step("local_map", [](const Backend& backend, int elements, double real_size) {
     const Mesh mesh = mesh_of(2 * elements);
     LocalMapStep::Rest rest;
     rest.pairs = vertex_elements(mesh, Positions::Ones(mesh.triangles.rows(), 3)).pairs;
-    rest.pairs.normals = mean_normals(mesh);
+    rest.pairs.normals = vertex_normals(mesh.positions, mesh.triangles);
     const double pairs = static_cast<double>(rest.pairs.pairs.rows()) / elements;
     const std::shared_ptr<LocalMapStep> step = backend.local_map(rest);
     const Mesh moved = {(2 * mesh.positions).array().sin(), mesh.triangles};
-    const Positions normals = mean_normals(moved);
+    const Positions normals = vertex_normals(moved.positions, moved.triangles);
     const auto maps = std::make_shared<Transforms>();
     return Work{[=] { step->fit(moved.positions, normals, *maps); },
                 kIndex + pairs * (2 * kIndex + 4 * real_size) + 3 * real_size + (2 * 3 + 9) * kHost};

@@ -1,5 +1,6 @@
 #include "edit.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -36,6 +37,13 @@ void check_outputs(const EditFiles& files) {
   } catch (const InvalidInput& e) {
     throw WrongUsage(std::string("-o: ") + e.what());
   }
+}
+
+void check_writes(const std::vector<std::string>& paths) {
+  if (!std::all_of(paths.begin(), paths.end(), [](const std::string& path) { return path.empty(); })) return;
+  throw WrongUsage(
+      "nothing to write: name the result mesh with -o FILE, the report with --json FILE or a picture with --picture "
+      "FILE.png");
 }
 
 std::string numbered(const std::string& path, size_t result, size_t count) {

@@ -28,6 +28,9 @@ void add_edit_files(CLI::App& app, EditFiles& files, const std::string& mesh_hel
 /// Throws WrongUsage where nothing can be written there, or no mesh of that format. Empty ones are not looked at.
 void check_outputs(const EditFiles& files);
 
+/// Throws WrongUsage where none of what could be written is named.
+void check_writes(const std::vector<std::string>& paths);
+
 /// The name of a file of one of several results, from 0: a.obj is a_1.obj, a_2.obj, ... Of one result it is as given.
 std::string numbered(const std::string& path, size_t result, size_t count);
 

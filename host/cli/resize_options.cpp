@@ -57,16 +57,6 @@ void check_has_targets(const ResizeJob& job) {
   refuse(!job.picture.path.empty(), "--picture");
 }
 
-void check_writes_something(const ResizeJob& job) {
-  const bool writes_results = !(job.output.empty() && job.grid_after.empty() && job.picture.path.empty());
-  const bool writes_facts =
-      !(job.vulnerability.empty() && job.grid_before.empty() && job.vulnerability_picture.empty());
-  if (writes_results || writes_facts || !job.json.empty() || !job.grid_picture.empty()) return;
-  throw WrongUsage(
-      "nothing to write: name the result mesh with -o FILE, the report with --json FILE or a picture with --picture "
-      "FILE.png");
-}
-
 void check_view(const ResizeJob& job) {
   const PictureOptions usual;
   const bool has_view = job.picture.view != usual.view || job.picture.up != usual.up || job.picture.size != usual.size;
@@ -129,7 +119,8 @@ void check_job(const ResizeJob& job) {
   check_png("--vulnerability-picture", job.vulnerability_picture, job.picture);
   check_png("--grid-picture", job.grid_picture, job.picture);
   check_names(job);
-  check_writes_something(job);
+  check_writes({job.output, job.json, job.picture.path, job.grid_after, job.grid_before, job.grid_picture,
+                job.vulnerability, job.vulnerability_picture});
   check_view(job);
 }
 

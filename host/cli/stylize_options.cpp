@@ -105,11 +105,7 @@ void check_written(const StylizeJob& job) {
   if (has_view && job.picture.path.empty() && job.sheet.empty()) {
     throw WrongUsage("--view, --up and --size are for pictures: name one with --picture or --style-sheet");
   }
-  if (job.output.empty() && job.json.empty() && job.picture.path.empty() && job.sheet.empty()) {
-    throw WrongUsage(
-        "nothing to write: name the result mesh with -o FILE, the report with --json FILE or a picture with --picture "
-        "FILE.png");
-  }
+  check_writes({job.output, job.json, job.picture.path, job.sheet});
 }
 
 }  // namespace

@@ -47,12 +47,13 @@ Template template_named(const std::string& name) {
 
 std::vector<CLI::Option*> add_setting_options(CLI::App& app, SettingOptions& options, const std::string& rest) {
   const std::string group = "Parameters";
-  CLI::Option* const set = app.add_option("--set", options.texts,
-                                          "Values of parameters, the others being " + rest +
-                                              ": name=value, or name*=factor or name+=step to change them; several "
-                                              "are taken one after the other")
-                               ->group(group)
-                               ->type_name("NAME=VALUE");
+  CLI::Option* const set =
+      app.add_option(
+             "--set", options.texts,
+             "Values of parameters, the others being " + rest +
+                 ": name=value, or name*=factor or name+=step to change them; several are taken one after the other")
+          ->group(group)
+          ->type_name("NAME=VALUE");
   CLI::Option* const beyond =
       app.add_flag("--beyond", options.beyond, "Parameters may leave their bounds, where the template may look odd")
           ->group(group);

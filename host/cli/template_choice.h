@@ -30,8 +30,8 @@ std::vector<CLI::Option*> add_setting_options(CLI::App& app, SettingOptions& opt
 /// What is set: name=value, name*=factor or name+=step, each after those before, with one value or one of each result.
 class Settings {
  public:
-  /// Throws WrongUsage, naming the text, where it is not understood, the template has no such parameter, a value is
-  /// out of its bounds, or two have different numbers of values.
+  /// Throws WrongUsage, naming the text, where it is not understood, the template has no such parameter, a value is out
+  /// of its bounds, or two have different numbers of values.
   Settings(const SettingOptions& options, const Template& of);
 
   bool any() const { return !settings_.empty(); }

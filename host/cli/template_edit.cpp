@@ -1,5 +1,4 @@
-// `swage template edit`: a mesh follows the parameters of a template that was
-// fitted to it.
+// `swage template edit`: a mesh follows the parameters of a template that was fitted to it.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -26,20 +25,13 @@ struct EditJob : EditFiles {
 void check_job(const EditJob& job) {
   check_outputs(job);
   check(job.picture);
-  if (job.output.empty() && job.json.empty() && job.picture.path.empty()) {
-    throw WrongUsage(
-        "nothing to write: name the result mesh with -o FILE, the "
-        "report with --json FILE or a picture with --picture "
-        "FILE.png");
-  }
+  check_writes({job.output, job.json, job.picture.path});
 }
 
 /// The mesh itself may be overwritten where there is one result.
 void check_names(const EditJob& job, size_t count) {
   if (job.output == kStdout && count > 1) {
-    throw WrongUsage(
-        "-o -: several results do not go to stdout: name a file, "
-        "which is numbered");
+    throw WrongUsage("-o -: several results do not go to stdout: name a file, which is numbered");
   }
   std::vector<Output> outputs = {{"--json", job.json}, {"--picture", job.picture.path}};
   for (size_t r = 0; r < count; ++r) outputs.push_back({"-o", numbered(job.output, r, count)});
@@ -101,11 +93,9 @@ void warn(const EditRun& run) {
 void tell(const EditJob& job, const EditRun& run, double seconds) {
   for (size_t r = 0; r < run.results.size(); ++r) {
     const TemplateEditResult& result = run.results[r];
-    spdlog::info(
-        "{}, {}{} passes ({}), {:.3f} % of the diagonal off the "
-        "template, at most {:.2f} %, {:.2f} s",
-        job.mesh, which(run, r), result.report.passes, to_string(result.report.stop), 100 * result.residual,
-        100 * result.largest, seconds);
+    spdlog::info("{}, {}{} passes ({}), {:.3f} % of the diagonal off the template, at most {:.2f} %, {:.2f} s",
+                 job.mesh, which(run, r), result.report.passes, to_string(result.report.stop), 100 * result.residual,
+                 100 * result.largest, seconds);
   }
 }
 
@@ -142,8 +132,7 @@ Json results_json(const EditJob& job, const EditRun& run) {
   return list;
 }
 
-/// Of one result on the top level, which makes it a fit of that, of several in
-/// a list.
+/// Of one result on the top level, which makes it a fit of that, of several in a list.
 Json report_json(const EditJob& job, const EditRun& run, const Backend& backend, const RunSeconds& seconds) {
   std::vector<std::string> warnings = run.file.warnings;
   warnings.insert(warnings.end(), run.warnings.begin(), run.warnings.end());
@@ -212,15 +201,12 @@ Command template_edit_command(CLI::App& group, const CommonOptions& common) {
   auto job = std::make_shared<EditJob>();
   add_edit_files(*app, *job, "The mesh to edit: .obj .ply .stl .off");
   app->get_option("--output")
-      ->description(
-          "Result mesh, format by extension; - for stdout. Of "
-          "several results a.obj is a_1.obj, a_2.obj ...");
+      ->description("Result mesh, format by extension; - for stdout. Of several results a.obj is a_1.obj, a_2.obj ...");
   app->get_option("--json")->description("Report of the run, of one result a fit to go on from; - for stdout");
   add_fit_source(*app, job->source);
   add_setting_options(*app, job->settings, "as they were fitted");
   app->get_option("--set")->description(app->get_option("--set")->get_description() +
-                                        "; with several values, such as width*=1.5,2, there is a result for "
-                                        "each");
+                                        "; with several values, such as width*=1.5,2, there is a result for each");
   add_editing_options(*app, job->options);
   CLI::Option* const picture = add_picture_option(*app, job->picture, "The mesh before and after, side by side");
   for (CLI::Option* option : add_eye_options(*app, job->picture, "--picture-size")) option->needs(picture);

@@ -11,10 +11,10 @@ namespace swage::cli {
 
 void add_fit_source(CLI::App& app, FitSource& source) {
   add_template_option(app, source.name, "; the fit's own where that is given");
-  CLI::Option* const fit = app.add_option("--fit", source.file,
-                                          "The report of `swage template fit`, or of an edit; else "
-                                          "the mesh is fitted on the spot")
-                               ->type_name("FIT.json");
+  CLI::Option* const fit =
+      app.add_option("--fit", source.file,
+                     "The report of `swage template fit`, or of an edit; else the mesh is fitted on the spot")
+          ->type_name("FIT.json");
   for (CLI::Option* option : add_fitting_options(app, source.options)) option->excludes(fit);
 }
 
@@ -31,21 +31,17 @@ void add_editing_options(CLI::App& app, TemplateEditOptions& options) {
   };
   add("--tracking", options.tracking, "How much following the template counts against keeping the shape (1)", 1e-6,
       1e6);
-  add("--smoothing", options.smoothing,
-      "How far neighbours' maps are joined, a part of the diagonal, 0 to 1 "
-      "(0.02)",
-      0, 1);
+  add("--smoothing", options.smoothing, "How far neighbours' maps are joined, a part of the diagonal, 0 to 1 (0.02)", 0,
+      1);
   add("--feature-angle", options.feature_angle, "Across sharper edges they are not, degrees (30)", 1e-3, 180);
   add("--sub-edits", options.sub_edits, "Steps on the parameters' way (0: as many as are needed)", 0, 10000);
-  add("--passes", options.passes, "Passes at most in all (200)", 1, 1e6);
+  add("--passes", options.passes, "Passes at most in all (1000)", 1, 1e6);
   add("--tolerance", options.tolerance, "Of the diagonal: vertices that move less are at rest (1e-5)", 1e-12, 0.1);
 }
 
 KnownFit known_fit(const std::string& name, const std::string& file) {
   if (name.empty() && file.empty()) {
-    throw WrongUsage(
-        "--template is missing: name one of `swage template "
-        "list`, or a fit that was made with --fit");
+    throw WrongUsage("--template is missing: name one of `swage template list`, or a fit that was made with --fit");
   }
   if (file.empty()) return {name, template_named(name), std::nullopt};
   FitFile fit = read_fit(file);

@@ -55,10 +55,9 @@ TemplateFit fitted(const Template& of, const MeshFile& file, const FitOptions& o
 std::vector<std::string> warnings_of(const TemplateFit& fit, const std::string& mesh) {
   std::vector<std::string> warnings = fit.report.warnings;
   if (fit.residual > kPoor) {
-    warnings.push_back(
-        fmt::format("the template is {:.1f} % of the diagonal off {}: is it of that shape, and what is "
-                    "up said with --up?",
-                    100 * fit.residual, mesh));
+    warnings.push_back(fmt::format(
+        "the template is {:.1f} % of the diagonal off {}: is it of that shape, and what is up said with --up?",
+        100 * fit.residual, mesh));
   }
   return warnings;
 }

@@ -1,5 +1,4 @@
-// `swage template interpolate`: a sequence of meshes from one fit's parameters
-// to another's.
+// `swage template interpolate`: a sequence of meshes from one fit's parameters to another's.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -28,8 +27,7 @@ struct InterpolateJob : EditFiles {
   PictureOptions picture;
 };
 
-/// Of a frame, from 0: in place of %d or %03d, or else before the extension;
-/// wide enough to be sorted by name.
+/// Of a frame, from 0: in place of %d or %03d, or else before the extension; wide enough to be sorted by name.
 std::string frame_path(const std::string& path, int frame, int count) {
   static const std::regex kPlace("%(0?)([0-9]?)d");
   if (path.empty()) return path;
@@ -48,21 +46,12 @@ void check_job(const InterpolateJob& job) {
   EditFiles first = job;
   first.output = frame_path(job.output, 0, job.frames);
   if (job.output == kStdout)
-    throw WrongUsage(
-        "-o -: several meshes do not go to stdout: name a file, "
-        "which is numbered");
+    throw WrongUsage("-o -: several meshes do not go to stdout: name a file, which is numbered");
   check_outputs(first);
   check(job.picture);
-  if (job.output.empty() && job.json.empty() && job.picture.path.empty()) {
-    throw WrongUsage(
-        "nothing to write: name the meshes with -o FILE, the "
-        "report with --json FILE or a picture with --picture "
-        "FILE.png");
-  }
+  check_writes({job.output, job.json, job.picture.path});
   if (job.to.empty() && job.settings.texts.empty()) {
-    throw WrongUsage(
-        "where to? name another fit with --to FIT.json, or "
-        "parameters with --set, such as --set width*=2");
+    throw WrongUsage("where to? name another fit with --to FIT.json, or parameters with --set, such as --set width*=2");
   }
   std::vector<Output> others = {{"MESH", job.mesh},
                                 {"--fit", job.source.file},
@@ -209,10 +198,8 @@ void run(const InterpolateJob& job, const CommonOptions& common) {
   seconds.write = write.seconds();
   seconds.total = total.seconds();
   if (!job.json.empty()) write_json(job.json, report_json(job, done, *backend, seconds));
-  spdlog::info(
-      "{}: {} meshes, the last {:.3f} % of the diagonal off the "
-      "template, {:.2f} s",
-      job.mesh, job.frames, 100 * done.frames.back().residual, seconds.total);
+  spdlog::info("{}: {} meshes, the last {:.3f} % of the diagonal off the template, {:.2f} s", job.mesh, job.frames,
+               100 * done.frames.back().residual, seconds.total);
 }
 
 }  // namespace
@@ -223,13 +210,10 @@ Command template_interpolate_command(CLI::App& group, const CommonOptions& commo
   add_edit_files(*app, *job, "The mesh to edit: .obj .ply .stl .off");
   app->get_option("--output")
       ->description(
-          "Result meshes, format by extension: a_%03d.obj is "
-          "a_001.obj, a_002.obj ...; so is a.obj, with as "
-          "many digits as are needed");
+          "Result meshes, format by extension: a_%03d.obj is a_001.obj, a_002.obj ...; so is a.obj, with as many "
+          "digits as are needed");
   add_fit_source(*app, job->source);
-  app->add_option("--to", job->to,
-                  "The fit at whose parameters the sequence ends, of another "
-                  "mesh for example")
+  app->add_option("--to", job->to, "The fit at whose parameters the sequence ends, of another mesh for example")
       ->type_name("FIT.json");
   add_setting_options(*app, job->settings, "as in --to or else as fitted");
   app->get_option("--set")->description("Parameters at the end of the sequence, besides --to or in its place");

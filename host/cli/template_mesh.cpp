@@ -27,11 +27,7 @@ void check_job(const MeshJob& job) {
                    {"--json", job.json},
                    {"--picture", job.picture.path},
                    {"TEMPLATE", file_of_template(job.name)}});
-  if (job.output.empty() && job.json.empty() && job.picture.path.empty()) {
-    throw WrongUsage(
-        "nothing to write: name the mesh with -o FILE, the report with --json FILE or a picture with --picture "
-        "FILE.png");
-  }
+  check_writes({job.output, job.json, job.picture.path});
 }
 
 Image picture_of(const MeshJob& job, const Template& of, const Settings& settings, const Mesh& mesh,

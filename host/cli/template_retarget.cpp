@@ -1,5 +1,4 @@
-// `swage template retarget`: a mesh takes the parameters and the place of a
-// template in another mesh.
+// `swage template retarget`: a mesh takes the parameters and the place of a template in another mesh.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -34,12 +33,7 @@ struct RetargetJob : EditFiles {  // MESH is the source.
 void check_job(const RetargetJob& job) {
   check_outputs(job);
   check(job.picture);
-  if (job.output.empty() && job.json.empty() && job.picture.path.empty()) {
-    throw WrongUsage(
-        "nothing to write: name the result mesh with -o FILE, the "
-        "report with --json FILE or a picture with --picture "
-        "FILE.png");
-  }
+  check_writes({job.output, job.json, job.picture.path});
   check_apart({{"-o", job.output}, {"--json", job.json}, {"--picture", job.picture.path}},
               {{"TARGET", job.target},
                {"--source-fit", job.source_fit},
@@ -166,11 +160,17 @@ void run(const RetargetJob& job, const CommonOptions& common) {
   seconds.write = write.seconds();
   seconds.total = total.seconds();
   if (!job.json.empty()) write_json(job.json, report_json(job, done, *backend, seconds));
-  spdlog::info(
-      "{} to {}: {} passes ({}), {:.3f} % of the diagonal off the "
-      "template, at most {:.2f} %, {:.2f} s",
-      job.mesh, job.target, done.edit.report.passes, to_string(done.edit.report.stop), 100 * done.edit.residual,
-      100 * done.edit.largest, seconds.total);
+  spdlog::info("{} to {}: {} passes ({}), {:.3f} % of the diagonal off the template, at most {:.2f} %, {:.2f} s",
+               job.mesh, job.target, done.edit.report.passes, to_string(done.edit.report.stop),
+               100 * done.edit.residual, 100 * done.edit.largest, seconds.total);
+}
+
+void refuse_fitting_of_none(const RetargetJob& job, const std::vector<CLI::Option*>& fitting) {
+  if (job.source_fit.empty() || job.target_fit.empty()) return;
+  for (const CLI::Option* option : fitting) {
+    if (option->count() == 0) continue;
+    throw WrongUsage(option->get_name() + ": is of a fit, and both are given: leave it out, or one of them");
+  }
 }
 
 }  // namespace
@@ -184,19 +184,21 @@ Command template_retarget_command(CLI::App& group, const CommonOptions& common) 
   app->add_option("--json", job->json, "Report of the run, a fit to go on from; - for stdout")->type_name("FILE");
   add_template_option(*app, job->name, "; a fit's own where that is given");
   app->add_option("--source-fit", job->source_fit,
-                  "The report of `swage template fit` on the source; else it "
-                  "is fitted on the spot")
+                  "The report of `swage template fit` on the source; else it is fitted on the spot")
       ->type_name("FIT.json");
   CLI::Option* const target_fit =
       app->add_option("--target-fit", job->target_fit, "The same of the target")->type_name("FIT.json");
-  add_fitting_options(*app, job->fitting);
+  const std::vector<CLI::Option*> fitting = add_fitting_options(*app, job->fitting);
   add_up_option(
       *app, "--target-up", [&target_up = job->target_up](char up) { target_up = up; }, "That of the target (as --up)")
       ->excludes(target_fit);
   add_editing_options(*app, job->options);
   CLI::Option* const picture = add_picture_option(*app, job->picture, "Source, target and result, side by side");
   for (CLI::Option* option : add_eye_options(*app, job->picture, "--picture-size")) option->needs(picture);
-  return {app, [job, &common] { run(*job, common); }};
+  return {app, [job, fitting, &common] {
+            refuse_fitting_of_none(*job, fitting);
+            run(*job, common);
+          }};
 }
 
 }  // namespace swage::cli

@@ -51,6 +51,15 @@ Positions unit_normals(const Positions& positions, const Triangles& triangles) {
   return normals;
 }
 
+Positions vertex_normals(const Positions& positions, const Triangles& triangles) {
+  const Positions areas = area_vectors(positions, triangles);
+  Positions sums = Positions::Zero(positions.rows(), 3);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) sums.row(triangles(t, k)) += areas.row(t);
+  }
+  return normalised(std::move(sums));
+}
+
 Eigen::VectorXd barycentric_areas(const Positions& positions, const Triangles& triangles) {
   const Eigen::VectorXd areas = area_vectors(positions, triangles).rowwise().norm() / 2;
   Eigen::VectorXd result = Eigen::VectorXd::Zero(positions.rows());

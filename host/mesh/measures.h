@@ -18,6 +18,9 @@ Positions normalised(Positions rows);
 /// #T × 3, unit; zero where a triangle has no area.
 Positions unit_normals(const Positions& positions, const Triangles& triangles);
 
+/// #V × 3, unit: means of the triangles around, weighted by area; zero where there is none or they cancel.
+Positions vertex_normals(const Positions& positions, const Triangles& triangles);
+
 /// #V: a third of the areas of the triangles around.
 Eigen::VectorXd barycentric_areas(const Positions& positions, const Triangles& triangles);
 

@@ -75,16 +75,6 @@ Positions flowed(const Mesh& style, bool scaled) {
   return positions;
 }
 
-/// #V × 3, unit: means of the triangles around, weighted by area.
-Positions vertex_normals(const Positions& positions, const Triangles& triangles) {
-  const Positions of_triangles = area_vectors(positions, triangles);
-  Positions sums = Positions::Zero(positions.rows(), 3);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) sums.row(triangles(t, k)) += of_triangles.row(t);
-  }
-  return normalised(std::move(sums));
-}
-
 }  // namespace
 
 SphereMap sphere_map(const Mesh& style, bool nearest) {

@@ -35,14 +35,7 @@ TemplateEditResult advanced(EditPlan& plan, const Eigen::VectorXd& target, const
   TemplateEditResult result;
   {
     const Stopwatch watch(seconds);
-    Report report;
-    if (target == plan.source) {
-      reset(plan);
-      report.stop = Termination::moved_little;
-    } else {
-      report = advance(plan, target, progress);
-    }
-    result = result_of(plan, target, std::move(report));
+    result = result_of(plan, target, advance(plan, target, progress));
   }
   return told(plan, seconds, std::move(result));
 }

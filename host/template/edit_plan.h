@@ -3,8 +3,9 @@
 // Each pass minimises, for the vertices' displacements d in the unit box,
 //   sum over vertices v and the edges (u, w) around them of c |d_w - d_u - J_v (w - u) + (w' - u')|²   (paper eq. 10)
 //   + sum over vertices of m_v (a_v . d_v - (f_v - f'(v')) / |grad f'|)²                               (eq. 8)
-// with the maps J_v of the local_map step, which take the rest normal n_v to n'_v, and a_v the mean of grad f' / |grad
-// f'| and n'_v.
+// with the maps J_v of the local_map step, which take the mesh's rest normal to that now, and a_v the mean of the
+// directions of grad f' and J_v grad f. Normals are the mesh's, not the field's: where that bends within less than an
+// edge, maps by its gradients would turn farther than the vertices that they move, pass by pass.
 #pragma once
 
 #include <memory>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "adjacency.h"
+#include "cancel.h"
 #include "conjugate_gradients.h"
 #include "element_list.h"
 #include "given.h"
@@ -22,6 +24,8 @@
 
 namespace swage {
 
+constexpr double kNoSlope = 1e-6;  // Of |grad f|: below, the field tells nothing.
+
 /// How neighbourhoods are mapped: as the paper's local_map step does or, to measure what that is better than, by the
 /// closest rotations.
 enum class EditMaps { stretched, rotated };
@@ -29,9 +33,9 @@ enum class EditMaps { stretched, rotated };
 /// What a pass follows, a row or entry a vertex.
 struct Tracking {
   FieldValues field;        ///< In the unit box, whose unit its values have.
-  Positions normals;        ///< n', unit: where neighbourhoods face.
-  Positions directions;     ///< (grad f' / |grad f'| + n') / 2
-  Eigen::VectorXd gaps;     ///< (f_v - f') / |grad f'|
+  Positions gradients;      ///< grad f' / |grad f'|
+  Positions directions;     ///< a_v
+  Eigen::VectorXd gaps;     ///< (f_v - f') / |grad f'|, f_v grown along
   Eigen::VectorXd weights;  ///< m_v: 0 where the field tells nothing.
 };
 
@@ -56,9 +60,9 @@ struct EditPlan {
   LaplacianSystem system = {};
   std::unique_ptr<HeldLaplacian> about = {};  ///< The laplacian and a part of all tracking weights, factored.
   HeldPoints about_points = {};
-  Lists rings = {};
   Eigen::VectorXd rest_values = {};  ///< f_v
-  Positions rest_normals = {};       ///< n_v
+  Positions rest_gradients = {};     ///< grad f / |grad f|
+  Positions rest_normals = {};       ///< Of the mesh.
   Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
   int components = 1, flat_triangles = 0;
   std::string told_components = "one";
@@ -70,6 +74,7 @@ struct EditPlan {
   Eigen::VectorXd parameters = {};
   Positions positions = {};
   Transforms maps = {};
+  double growth = 1;  ///< Of the template as a whole: what lies off its surface grows along.
   Tracking tracking = {};
   GradientsWork<Eigen::VectorXd> work = {};
 };
@@ -91,15 +96,17 @@ void reset(EditPlan& plan);
 /// The field and its gradients in the unit box.
 void evaluate(EditPlan& plan, const Positions& positions, const Eigen::VectorXd& parameters, FieldDerivatives how,
               FieldValues& field);
-/// Of where the mesh is.
+/// Of where the mesh is, with the maps that it has.
 void track(EditPlan& plan, const Eigen::VectorXd& parameters);
+/// The directions of tracking, once the maps are others.
+void aim(EditPlan& plan);
 
 // edit_whole.cpp
 /// Moves, turns and scales the whole mesh where that is most of what it has to do. Whether it did.
 bool move_as_whole(EditPlan& plan);
 /// Moves the mesh to where the target's template is where that is the source's, moved, turned and scaled. False, and
 /// nothing has moved, where it is not.
-bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target);
+bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
 // follow.cpp
 /// Moves the mesh by one pass, and returns how far it moved a vertex at most.

@@ -25,20 +25,6 @@ constexpr double kReach = 0.01;              // Of D: what is smaller follows it
 constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
 constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
 constexpr double kAbout = 0.3;               // Part of the tracking weights that is factored.
-constexpr double kNoSlope = 1e-6;
-
-Positions vertex_normals(const Mesh& mesh) {
-  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
-  Positions normals = Positions::Zero(mesh.positions.rows(), 3);
-  for (Index t = 0; t < areas.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(t, k)) += areas.row(t);
-  }
-  normals = normalised(std::move(normals));
-  for (auto normal : normals.rowwise()) {
-    if (!(normal.squaredNorm() > 0.5)) normal = Eigen::RowVector3d::UnitY();
-  }
-  return normals;
-}
 
 Eigen::VectorXd tracking_weights(const EditPlan& plan, const Mesh& unit_mesh) {
   const Eigen::VectorXd areas = barycentric_areas(unit_mesh.positions, unit_mesh.triangles);
@@ -73,12 +59,13 @@ void sign(EditPlan& plan, const Mesh& unit_mesh) {
   FieldValues field;
   evaluate(plan, unit_mesh.positions, plan.source, FieldDerivatives::in_space, field);
   plan.rest_values = field.values;
-  plan.rest_normals = vertex_normals(unit_mesh);
+  plan.rest_normals = vertex_normals(unit_mesh.positions, unit_mesh.triangles);
+  plan.rest_gradients.setZero(field.values.size(), 3);
   plan.weights = tracking_weights(plan, unit_mesh);
   for (Index v = 0; v < field.values.size(); ++v) {
     const double slope = field.gradients.row(v).norm();
     if (slope > kNoSlope && std::isfinite(slope)) {
-      plan.rest_normals.row(v) = field.gradients.row(v) / slope;
+      plan.rest_gradients.row(v) = field.gradients.row(v) / slope;
     } else {
       plan.weights[v] = 0;
     }
@@ -105,7 +92,6 @@ void make(EditPlan& plan, const ProgressFn& progress) {
       half_cotangents(unit_mesh.positions, unit_mesh.triangles, is_flat).cwiseMax(kWeights[0]).cwiseMin(kWeights[1]);
   plan.elements = vertex_elements(unit_mesh, weights);
   add_ties(unit_mesh.positions, joined.ties, mean_edge_length(unit_mesh.positions, unit_mesh.triangles), plan.elements);
-  plan.rings = one_rings(plan.edges, static_cast<int>(unit_mesh.positions.rows()));
   LocalMapStep::Rest rest;
   rest.pairs = plan.elements.pairs;
   rest.pairs.normals = plan.rest_normals;
@@ -159,6 +145,7 @@ void reset(EditPlan& plan) {
   plan.parameters = plan.source;
   plan.positions = plan.elements.pairs.vertices;
   plan.maps = identities(plan.positions.rows());
+  plan.growth = 1;
 }
 
 }  // namespace swage

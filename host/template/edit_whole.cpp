@@ -31,7 +31,8 @@ struct Whole {
   double square = 0, left = 0;
 };
 
-Whole best_motion(const EditPlan& plan) {
+/// `grows`: what lies off the surface scales along.
+Whole best_motion(const EditPlan& plan, bool grows) {
   const Tracking& tracking = plan.tracking;
   const double mass = tracking.weights.sum();
   Whole whole;
@@ -41,9 +42,10 @@ Whole best_motion(const EditPlan& plan) {
   Motion right = Motion::Zero();
   for (Index v = 0; v < plan.positions.rows(); ++v) {
     const Vector3d at = plan.positions.row(v) - whole.middle, direction = tracking.directions.row(v);
+    const double weight = tracking.weights[v], gap = tracking.gaps[v];
     Motion row;
     row << direction, at.cross(direction), direction.dot(at);
-    const double weight = tracking.weights[v], gap = tracking.gaps[v];
+    if (grows && weight > 0) row[6] -= plan.growth * plan.rest_values[v] / tracking.field.gradients.row(v).norm();
     matrix += weight * row * row.transpose();
     right += weight * gap * row;
     whole.square += weight * gap * gap;
@@ -78,7 +80,7 @@ double mean_gap(const EditPlan& plan) {
 }  // namespace
 
 bool move_as_whole(EditPlan& plan) {
-  const Whole whole = best_motion(plan);
+  const Whole whole = best_motion(plan, false);
   const double still = kStill * plan.diagonal;
   if (!(whole.square > plan.tracking.weights.sum() * still * still)) return false;
   if (!(whole.left < kLeft * whole.square)) return false;
@@ -86,27 +88,35 @@ bool move_as_whole(EditPlan& plan) {
   return true;
 }
 
-bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target) {
+bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll) {
   const Eigen::VectorXd source = plan.parameters;
   const Positions positions = plan.positions;
   const Transforms maps = plan.maps;
+  const double growth = plan.growth;
   const auto explained = [&] {
     for (int step = 1; step <= kSteps; ++step) {
+      ask(poll);
       const double part = static_cast<double>(step) / kSteps;
       const Eigen::VectorXd parameters = source + part * (target - source);
       track(plan, parameters);
       const double before = mean_gap(plan);
       for (int i = 0; i < (step == kSteps ? kLastMoves : kMoves); ++i) {
-        move(plan, best_motion(plan));
+        const Whole whole = best_motion(plan, true);
+        move(plan, whole);
+        plan.growth *= std::exp(whole.motion[6]);
         track(plan, parameters);
       }
       if (!(mean_gap(plan) <= std::max(kUntold * before, kStill * plan.diagonal))) return false;
     }
     return mean_gap(plan) <= kStill * plan.diagonal;
   };
-  if (explained()) return true;
+  if (explained()) {
+    plan.parameters = target;
+    return true;
+  }
   plan.positions = positions;
   plan.maps = maps;
+  plan.growth = growth;
   return false;
 }
 

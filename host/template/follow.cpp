@@ -1,7 +1,5 @@
 // Passes.
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "anderson.h"
@@ -13,20 +11,17 @@ namespace {
 
 using Eigen::Index;
 using Eigen::RowVector3d;
-using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kStep = 0.02;           // Of D: no vertex goes farther for the template in a pass.
 constexpr double kJump = 0.01;           // Of D: a sub-edit moves the template no farther,
 constexpr double kLeastPart = 1.0 / 64;  // but this part of the way it goes at least.
 constexpr int kSubEditPasses = 2;
-constexpr int kWholeMoves = 5;  // Of a pass.
-constexpr double kElastic = 0.05;
-constexpr double kBegin = 0.02;  // Of a sub-edit.
-constexpr double kNoTurn = 1e-9;
-constexpr int kIterations = 6;    // Of conjugate gradients in a pass,
+constexpr int kWholeMoves = 5;    // Of a pass.
+constexpr double kBegin = 0.02;   // Of a sub-edit.
+constexpr int kIterations = 15;   // Of conjugate gradients in a pass,
 constexpr double kSolved = 1e-4;  // or until this part of the error is left.
-constexpr int kWindow = 5;        // Passes that the next start is made of.
+constexpr int kWindow = 3;        // Passes that the next start is made of.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
 Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
@@ -65,37 +60,13 @@ VectorXd residual(const EditPlan& plan) {
   return result;
 }
 
-/// Unit vectors across a unit normal and each other.
-std::array<Vector3d, 2> across(const Vector3d& normal) {
-  const Vector3d first = normal.unitOrthogonal();
-  return {first, normal.cross(first)};
-}
-
-/// Draws maps back towards the turns that they are nearest to, which take n to n' alike: what stretches does so evenly,
-/// and no more than the template asks for.
-void relax(EditPlan& plan) {
-#pragma omp parallel for schedule(static)
-  for (Index v = 0; v < plan.maps.rows(); ++v) {
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(plan.maps.row(v).data());
-    const Vector3d rest = plan.rest_normals.row(v), now = plan.tracking.normals.row(v);
-    const auto [x, y] = across(rest);
-    const auto [to_x, to_y] = across(now);
-    const Vector3d image_x = map * x, image_y = map * y;
-    const double sine = to_y.dot(image_x) - to_x.dot(image_y), cosine = to_x.dot(image_x) + to_y.dot(image_y);
-    const double length = std::hypot(sine, cosine);
-    if (!(length > kNoTurn)) continue;
-    const Vector3d turned_x = (cosine * to_x + sine * to_y) / length, turned_y = now.cross(turned_x);
-    map += kElastic * (now * rest.transpose() + turned_x * x.transpose() + turned_y * y.transpose() - map);
-  }
-}
-
 void fit_maps(EditPlan& plan) {
   if (plan.rotation) {
     plan.rotation->fit(plan.positions, {}, plan.maps);
   } else {
-    plan.local_map->fit(plan.positions, plan.tracking.normals, plan.maps);
-    relax(plan);
+    plan.local_map->fit(plan.positions, vertex_normals(plan.positions, plan.mesh.triangles), plan.maps);
   }
+  aim(plan);
 }
 
 /// How far the template moves from where it is to the parameters, over the mesh, in the unit box.
@@ -107,10 +78,6 @@ double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
   std::nth_element(moved.begin(), most, moved.end());
   return *most;
 }
-
-}  // namespace
-
-namespace {
 
 /// By what tracking holds.
 void place(EditPlan& plan) {
@@ -151,17 +118,24 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
   Report report;
   const VectorXd source = plan.parameters;
   const auto along = [&](double part) -> VectorXd { return part >= 1 ? target : source + part * (target - source); };
-  const auto one = [&](double part) {
+  const auto tell = [&] {
     const double done = static_cast<double>(report.passes) / plan.options.passes;
     if (progress && !progress({"pass", report.passes, plan.options.passes, done, 0})) throw Cancelled();
+  };
+  const auto one = [&](double part) {
+    tell();
     report.movements.push_back(pass(plan, along(part)));
     ++report.passes;
   };
   FieldValues field;
   double at = 0;
   int sub_edits = 0;
-  if (follow_as_whole(plan, target)) at = 1;
   try {
+    if (follow_as_whole(plan, target, tell)) {
+      report.stop = Termination::moved_little;
+      report.paths["sub_edits"] = "none: moved, turned and scaled as a whole";
+      return report;
+    }
     while (at < 1 && report.passes < plan.options.passes) {
       double part = plan.options.sub_edits > 0 ? 1.0 / plan.options.sub_edits : 1 - at;
       if (plan.options.sub_edits == 0) {

@@ -20,7 +20,7 @@ struct TemplateEditOptions {
   double smoothing = 0.02;           ///< How far neighbours' maps are joined: sigma_s as a part of D, at least 0.
   double feature_angle = 30;         ///< Degrees: neighbours are not joined across sharper edges. (0, 180].
   int sub_edits = 0;                 ///< Steps on the parameters' way; 0: as many as the residual asks for.
-  int passes = 200;                  ///< At most in all, at least 1.
+  int passes = 1000;                 ///< At most in all, at least 1.
   double tolerance = 1e-5;           ///< Of D: at rest are vertices that a pass moves less. (0, 1).
   std::shared_ptr<Backend> backend;  ///< Does the local steps; cpu_backend() where none is given.
 };

@@ -48,21 +48,11 @@ class CurvatureStepBy : public testing::TestWithParam<Who> {
   std::shared_ptr<Backend> backend_;
 };
 
-Positions vertex_normals(const Mesh& mesh) {
-  const Positions areas = area_vectors(mesh.positions, mesh.triangles);
-  Positions normals = Positions::Zero(mesh.positions.rows(), 3);
-  for (Index t = 0; t < areas.rows(); ++t) {
-    for (const int v : mesh.triangles.row(t)) normals.row(v) += areas.row(t);
-  }
-  normals.rowwise().normalize();
-  return normals;
-}
-
 /// Every vertex with those within two edges.
 Rest two_rings(const Mesh& mesh) {
   const int count = static_cast<int>(mesh.positions.rows());
   const Lists near = one_rings(edges_of(mesh.triangles), count);
-  Rest rest{mesh.positions, vertex_normals(mesh), {0}, {}};
+  Rest rest{mesh.positions, vertex_normals(mesh.positions, mesh.triangles), {0}, {}};
   std::vector<int> seen_from(static_cast<size_t>(count), -1);
   for (int v = 0; v < count; ++v) {
     auto add = [&](int neighbour) {
