@@ -73,7 +73,7 @@ TemplateEditResult TemplateEdit::follow(const Eigen::VectorXd& target, int passe
   {
     const Stopwatch watch(seconds);
     Report report;
-    for (int i = 0; i < passes; ++i) report.movements.push_back(pass(*plan_, target));
+    for (int i = 0; i < passes; ++i) report.movements.push_back(pass(*plan_, target, kDragging));
     report.passes = passes;
     if (report.movements.back() < plan_->options.tolerance * plan_->diagonal) report.stop = Termination::moved_little;
     result = result_of(*plan_, target, std::move(report));

@@ -109,8 +109,10 @@ bool move_as_whole(EditPlan& plan);
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
 // follow.cpp
+/// Of conjugate gradients in a pass: until the mesh stands still, and while it is dragged.
+constexpr int kSettling = 15, kDragging = 6;
 /// Moves the mesh by one pass, and returns how far it moved a vertex at most.
-double pass(EditPlan& plan, const Eigen::VectorXd& parameters);
+double pass(EditPlan& plan, const Eigen::VectorXd& parameters, int iterations);
 /// From where the mesh is to the target until it stands still.
 Report advance(EditPlan& plan, const Eigen::VectorXd& target, const ProgressFn& progress);
 /// Where the mesh is.

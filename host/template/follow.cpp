@@ -19,8 +19,7 @@ constexpr double kLeastPart = 1.0 / 64;  // but this part of the way it goes at 
 constexpr int kSubEditPasses = 2;
 constexpr int kWholeMoves = 5;    // Of a pass.
 constexpr double kBegin = 0.02;   // Of a sub-edit.
-constexpr int kIterations = 15;   // Of conjugate gradients in a pass,
-constexpr double kSolved = 1e-4;  // or until this part of the error is left.
+constexpr double kSolved = 1e-4;  // Part of the error that ends conjugate gradients.
 constexpr int kWindow = 3;        // Passes that the next start is made of.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
@@ -80,7 +79,7 @@ double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
 }
 
 /// By what tracking holds.
-void place(EditPlan& plan) {
+void place(EditPlan& plan, int iterations) {
   fit_maps(plan);
   const VectorXd right = residual(plan);
   VectorXd moved = VectorXd::Zero(right.size());
@@ -89,7 +88,7 @@ void place(EditPlan& plan) {
     e.resize(r.size());
     rows(e) = plan.about->solve(rows(r), plan.about_points);
   };
-  conjugate_gradients(times, precondition, right, kSolved, kIterations, moved, plan.work);
+  conjugate_gradients(times, precondition, right, kSolved, iterations, moved, plan.work);
   plan.positions += rows(moved);
 }
 
@@ -100,17 +99,17 @@ void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
   const VectorXd gaps = plan.tracking.gaps;
   track(plan, from + kBegin * (to - from));
   plan.tracking.gaps = gaps + (plan.tracking.gaps - gaps) / kBegin;
-  if (!move_as_whole(plan)) place(plan);
+  if (!move_as_whole(plan)) place(plan, kSettling);
 }
 
 }  // namespace
 
-double pass(EditPlan& plan, const VectorXd& parameters) {
+double pass(EditPlan& plan, const VectorXd& parameters, int iterations) {
   const Positions before = plan.positions;
   track(plan, parameters);
   for (int i = 0; i < kWholeMoves && move_as_whole(plan); ++i) track(plan, parameters);
   plan.parameters = parameters;
-  place(plan);
+  place(plan, iterations);
   return (plan.positions - before).rowwise().norm().maxCoeff();
 }
 
@@ -124,7 +123,7 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
   };
   const auto one = [&](double part) {
     tell();
-    report.movements.push_back(pass(plan, along(part)));
+    report.movements.push_back(pass(plan, along(part), kSettling));
     ++report.passes;
   };
   FieldValues field;
