@@ -16,9 +16,7 @@
 #include <vector>
 
 #include "machine.h"
-#include "measures.h"
 #include "mesh_index.h"
-#include "samples.h"
 #include "swage/mesh_io.h"
 #include "swage/render.h"
 #include "swage/template_edit.h"
@@ -77,17 +75,6 @@ struct Fitted {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// How far the fitted surface is from the mesh, root mean square, a part of D: what the template has and the mesh has
-/// not.
-double excess(const Mesh& surface, const Positions& mesh, const Triangles& triangles) {
-  const UnitBox box = unit_box(mesh);
-  const SurfaceDistance distance({box.into(mesh), triangles});
-  const Positions points = box.into(surface_samples(surface, 2000, 1));
-  double sum = 0;
-  for (Eigen::Index p = 0; p < points.rows(); ++p) sum += std::pow(distance(points.row(p)).distance, 2);
-  return std::sqrt(sum / static_cast<double>(points.rows())) * box.extent / box_diagonal(mesh);
-}
-
 /// Each with its picture, where the template lies.
 void edit(const Template& of, const TemplateFit& fit, const Mesh& mesh, Fitted& fitted) {
   TemplateEdit edit(of, fit.parameters, fit.pose, mesh.positions, mesh.triangles);
@@ -122,26 +109,30 @@ Fitted fit(const test::ListedMesh& listed, const std::string& kind) {
   Fitted fitted{listed.path.stem().string(), kind, {}, {}};
   std::vector<std::string> bounds;
   for (const int p : fit.at_bound) bounds.push_back(of.parameters()[static_cast<size_t>(p)].name);
-  fitted.json = {{"mesh", listed.name},         {"template", kind},       {"rms", fit.residual},
-                 {"largest", fit.largest},      {"cpu_seconds", seconds}, {"seconds", fit.report.seconds.at("solve")},
-                 {"passes", fit.report.passes}, {"at_bound", bounds}};
+  fitted.json = {{"mesh", listed.name},
+                 {"template", kind},
+                 {"rms", fit.residual},
+                 {"largest", fit.largest},
+                 {"excess", fit.excess},
+                 {"cpu_seconds", seconds},
+                 {"seconds", fit.report.seconds.at("solve")},
+                 {"passes", fit.report.passes},
+                 {"at_bound", bounds}};
   for (size_t p = 0; p < of.parameters().size(); ++p) {
     fitted.json["parameters"][of.parameters()[p].name] = fit.parameters[static_cast<Eigen::Index>(p)];
   }
   const Mesh surface = template_mesh(of, fit.parameters, {120, nullptr});
   const Positions turned = fit.pose.into(mesh.positions);
-  const double more = excess(surface, turned, mesh.triangles);
-  fitted.json["excess"] = more;
   const auto stranger = strangers().find(fitted.name);
   if (stranger != strangers().end()) fitted.json["stranger"] = stranger->second;
   std::printf("%-30s %-9s %6.2f %6.2f %6.2f %6.2f %5d  ", fitted.name.c_str(), kind.c_str(), 100 * fit.residual,
-              100 * more, 100 * fit.largest, fit.report.seconds.at("solve"), fit.report.passes);
+              100 * fit.excess, 100 * fit.largest, fit.report.seconds.at("solve"), fit.report.passes);
   for (const std::string& bound : bounds) std::printf(" %s", bound.c_str());
   std::printf("\n");
   std::fflush(stdout);
 
   char caption[64];
-  std::snprintf(caption, sizeof caption, "rms %.2f %%, excess %.2f %%", 100 * fit.residual, 100 * more);
+  std::snprintf(caption, sizeof caption, "rms %.2f %%, excess %.2f %%", 100 * fit.residual, 100 * fit.excess);
   // The picture shows the template's up upwards.
   fitted.row.title = fitted.name;
   fitted.row.view = automatic_view({turned, mesh.triangles});

@@ -59,6 +59,11 @@ std::vector<std::string> warnings_of(const TemplateFit& fit, const std::string& 
         "the template is {:.1f} % of the diagonal off {}: is it of that shape, and what is up said with --up?",
         100 * fit.residual, mesh));
   }
+  if (fit.excess > kPoor) {
+    warnings.push_back(
+        fmt::format("the template has what {} has not: its surface is {:.1f} % of the diagonal off, by and large", mesh,
+                    100 * fit.excess));
+  }
   return warnings;
 }
 

@@ -40,6 +40,7 @@ Json pose_json(const TemplatePose& pose) {
 
 void add_fit_quality(Json& json, const Template& of, const TemplateFit& fit, std::vector<std::string>& warnings) {
   json["residual"] = finite(fit.residual, "residual", warnings);
+  json["excess"] = finite(fit.excess, "excess", warnings);
   json["largest"] = finite(fit.largest, "largest", warnings);
   json["at_bound"] = Json::array();
   for (const int parameter : fit.at_bound) {

@@ -35,6 +35,7 @@ constexpr size_t kGuesses = 24;  // With the start itself.
 constexpr size_t kGuessed = 6;   // Of them, in all directions, are followed.
 constexpr size_t kFinalists = 2;
 constexpr int kBoxResolution = 32;
+constexpr int kSurfaceResolution = 48, kSurfaceSamples = 1000;
 
 void check_options(const Template& of, const FitOptions& options) {
   const auto refuse_unless = [](bool fits, const std::string& what) {
@@ -90,13 +91,13 @@ class Fit {
         options_(options),
         stages_(stages),
         step_(of.field(*(options.backend ? options.backend : cpu_backend()))),
-        diagonal_(box_diagonal(mesh.positions)) {}
+        diagonal_(box_diagonal(mesh.positions)),
+        distance_(mesh) {}
 
   TemplateFit run() {
     stages_.begin("samples", 0);
-    const SurfaceDistance distance(mesh_);
-    few_ = samples(distance, kFew);
-    all_ = samples(distance, 1);
+    few_ = samples(kFew);
+    all_ = samples(1);
     std::vector<Attempt> attempts = first_attempts();
     for (size_t i = 0; i < attempts.size(); ++i) {
       stages_.begin("starts", 0.1 + 0.4 * static_cast<double>(i) / static_cast<double>(attempts.size()));
@@ -112,7 +113,7 @@ class Fit {
     }
     rank(attempts);
     keep_best(attempts, 1);
-    finish(attempts[0], distance.closed_area());
+    finish(attempts[0]);
     return std::move(result_);
   }
 
@@ -124,12 +125,12 @@ class Fit {
     Minimum minimum;
   };
 
-  FitSamples samples(const SurfaceDistance& distance, double part) const {
+  FitSamples samples(double part) const {
     const auto of = [&](int count, int least) {
       return std::min(count, std::max(least, static_cast<int>(std::lround(part * count))));
     };
     return {surface_samples(mesh_, of(options_.surface_samples, kLeastFew), options_.seed),
-            volume_samples(mesh_, distance, of(options_.volume_samples, kLeastFew), options_.seed + 1)};
+            volume_samples(mesh_, distance_, of(options_.volume_samples, kLeastFew), options_.seed + 1)};
   }
 
   double sigma(int pass) const {
@@ -149,12 +150,30 @@ class Fit {
     if (options_.pose) attempt.objective->hold_offset();
   }
 
-  /// By the whole space about the mesh: what the template has far from it counts too.
-  static void rank(std::vector<Attempt>& attempts) {
+  /// From the template's surface to the mesh, root mean square, a part of D.
+  double excess_of(const Attempt& attempt) const {
+    const VectorXd parameters = attempt.objective->parameters_at(attempt.minimum.x);
+    Mesh surface;
+    try {
+      surface = template_mesh(template_, parameters, {kSurfaceResolution, options_.backend});
+    } catch (const Unsolvable&) {
+      return INFINITY;
+    }
+    const Positions points =
+        attempt.objective->pose_at(attempt.minimum.x).back(surface_samples(surface, kSurfaceSamples, options_.seed));
+    double sum = 0;
+    for (const auto& point : points.rowwise()) sum += std::pow(distance_(point).distance, 2);
+    return std::sqrt(sum / static_cast<double>(points.rows())) / diagonal_;
+  }
+
+  /// By the whole space about the mesh, and by what the template has beyond it, which no sample sees.
+  void rank(std::vector<Attempt>& attempts) const {
     VectorXd gradient;
     for (Attempt& attempt : attempts) {
+      ask(stages_.poll());
       attempt.objective->set_sigma(1);
       attempt.minimum.energy = (*attempt.objective)(attempt.minimum.x, gradient);
+      attempt.minimum.energy += std::pow(100 * excess_of(attempt), 2);  // The energy is in percents too.
     }
   }
 
@@ -225,7 +244,9 @@ class Fit {
     return all;
   }
 
-  void finish(const Attempt& best, double closed_area) {
+  void finish(const Attempt& best) {
+    const double closed_area = distance_.closed_area();
+    result_.excess = excess_of(best);
     result_.parameters = best.objective->parameters_at(best.minimum.x);
     result_.pose = best.objective->pose_at(best.minimum.x);
     FieldValues field;
@@ -255,6 +276,7 @@ class Fit {
   Stages& stages_;
   std::unique_ptr<FieldStep> step_;
   double diagonal_;
+  SurfaceDistance distance_;
   FitSamples few_, all_;
   TemplateFit result_;
 };

@@ -12,7 +12,7 @@
 
 namespace swage {
 
-/// Of a mesh in the unit box. Threads may share it.
+/// Of a mesh in the unit box, whose closed parts are outwards however they are wound. Threads may share it.
 class SurfaceDistance {
  public:
   explicit SurfaceDistance(Mesh mesh);
