@@ -27,15 +27,21 @@ class Pairs {
   template <typename... OfElement>
   void fit(const char* function, Kernel& kernel, const Positions& positions, const Positions& targets,
            Transforms& result, const OfElement&... of_element) {
+    result.resize(elements_.count, 9);
+    fit_rows(function, kernel, positions, targets, result, result_, of_element...);
+  }
+  /// Likewise, of as many columns as `result` has and `rows` has room for.
+  template <typename Result, typename... OfElement>
+  void fit_rows(const char* function, Kernel& kernel, const Positions& positions, const Positions& targets,
+                Result& result, HostRows& rows, const OfElement&... of_element) {
     check_rows(function, "positions", positions.rows(), vertices_);
     check_rows(function, "targets", targets.rows(), normals_.size() / 3);
-    result.resize(elements_.count, 9);
-    const Visit visit(queue_, {&positions_, &targets_, &result_});
+    const Visit visit(queue_, {&positions_, &targets_, &rows});
     show(positions, targets);
-    result_.lend(result);
+    rows.lend(result);
     kernel.launch(elements_.items(), elements_.count, HostNumber{per_length_now()}, normals_.size() == 0 ? 0 : 1,
-                  offsets_, pairs_, edges_, normals_, of_element..., positions_, targets_, result_);
-    result_.take_back(result);
+                  offsets_, pairs_, edges_, normals_, of_element..., positions_, targets_, rows);
+    rows.take_back(result);
   }
 
   const LaneItems& elements() const { return elements_; }

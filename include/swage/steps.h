@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -180,6 +181,10 @@ class ClosestNormalStep {
 /// best: n' nᵀ + P' (sum_p w_p b_p a_pᵀ + sum_j w_j T_j) (P (sum_p w_p a_p a_pᵀ + sum_j w_j I) P)⁺, with P = I - n nᵀ,
 /// a the rest edges, b the edges now, and T_j a neighbour's last map, turned by the shortest rotations from n to its
 /// rest normal and from its normal now to n'.
+///
+/// Normals now are those given or, where `guidance` is not infinite, of unit length those with which the maps fit best:
+/// they and a map of the plane make sum_p w_p |b_p - J a_p|² + g |n' - m|² the least, with m the normal given and g
+/// that part of the rest edges' spread across n.
 class LocalMapStep {
  public:
   struct Rest {
@@ -187,10 +192,12 @@ class LocalMapStep {
     std::vector<int> offsets;     ///< #N + 1: neighbours of element n stand at offsets[n] .. offsets[n + 1]. Or none.
     std::vector<int> neighbours;  ///< Elements.
     Eigen::VectorXd smoothing;    ///< Their weights, at least 0, of the unit of w |a|².
+    double guidance = std::numeric_limits<double>::infinity();  ///< Above 0.
   };
 
   virtual ~LocalMapStep() = default;
-  /// `normals`: #N × 3 unit, now. `maps`: #N × 9, the last ones where there are neighbours; becomes the new ones.
+  /// `normals`: #N × 3 unit, now or, with guidance, near those. `maps`: #N × 9, the last ones where there are
+  /// neighbours; becomes the new ones.
   virtual void fit(const Positions& positions, const Positions& normals, Transforms& maps) = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
 #include "adjacency.h"
 #include "measures.h"
@@ -49,6 +50,35 @@ Transforms identities(Index count) {
   return Eigen::Matrix<double, 1, 9>(1, 0, 0, 0, 1, 0, 0, 0, 1).replicate(count, 1);
 }
 
+/// What the best map with a normal leaves of the sum that guidance makes the least, by plain least squares: of the
+/// plane's two axes the images that minimise it, across the normal.
+double left_over(const LocalMapStep::Rest& rest, const Positions& positions, const Positions& guides, Index v,
+                 const Eigen::Vector3d& normal) {
+  const auto at = static_cast<size_t>(v);
+  const Eigen::Vector3d n = rest.pairs.normals.row(v), u = n.unitOrthogonal(), w = n.cross(u);
+  const Matrix3d across = Matrix3d::Identity() - normal * normal.transpose();
+  std::vector<Eigen::Vector2d> from;  // In the plane, weighted.
+  std::vector<Eigen::Vector3d> to;    // What is left once the normal's part is taken off.
+  double guided = 0;
+  for (int p = rest.pairs.offsets[at]; p < rest.pairs.offsets[at + 1]; ++p) {
+    const int first = rest.pairs.pairs(p, 0), second = rest.pairs.pairs(p, 1);
+    const Eigen::Vector3d a = rest.pairs.vertices.row(second) - rest.pairs.vertices.row(first);
+    const Eigen::Vector3d b = positions.row(second) - positions.row(first);
+    const double root = std::sqrt(rest.pairs.weights[p]);
+    from.emplace_back(root * a.dot(u), root * a.dot(w));
+    to.emplace_back(root * (b - a.dot(n) * normal));
+    guided += rest.guidance * from.back().squaredNorm();
+  }
+  const double sum = guided * (normal - guides.row(v).transpose()).squaredNorm();
+  Eigen::MatrixXd left(from.size(), 2), right(from.size(), 3);
+  for (size_t k = 0; k < from.size(); ++k) {
+    left.row(static_cast<Index>(k)) = from[k];
+    right.row(static_cast<Index>(k)) = to[k];
+  }
+  const Eigen::MatrixXd images = left.colPivHouseholderQr().solve(right * across);
+  return sum + (right - left * images).squaredNorm();
+}
+
 class LocalMapStepBy : public testing::TestWithParam<Who> {
  protected:
   void SetUp() override { backend_ = GetParam().backend(); }
@@ -93,7 +123,8 @@ TEST_P(LocalMapStepBy, TakesNormalsToNormals) {
     bent.positions(v, 2) += 0.4 * std::sin(2 * bent.positions(v, 0));
     bent.positions(v, 1) *= 1.7;
   }
-  const Positions before = vertex_normals(mesh.positions, mesh.triangles), after = vertex_normals(bent.positions, bent.triangles);
+  const Positions before = vertex_normals(mesh.positions, mesh.triangles),
+                  after = vertex_normals(bent.positions, bent.triangles);
   for (const double smoothing : {0.0, 0.05}) {
     const Transforms maps = fitted(mesh, bent.positions, after, smoothing, identities(mesh.positions.rows()));
     for (Index v = 0; v < maps.rows(); ++v) {
@@ -115,6 +146,52 @@ TEST_P(LocalMapStepBy, CarriesNeighboursAlong) {
   const Transforms last = turn.reshaped<Eigen::RowMajor>().transpose().replicate(mesh.positions.rows(), 1);
   const Transforms maps = fitted(mesh, positions, turned, 10, last);
   for (Index v = 0; v < maps.rows(); ++v) EXPECT_LT((map_of(maps, v) - turn).norm(), 20 * GetParam().tolerance) << v;
+}
+
+/// With guidance, normals are those that leave least of what the maps are fitted to: no other does better.
+TEST_P(LocalMapStepBy, TurnsNormalsToFitBest) {
+  if (!backend_) return;
+  const Mesh mesh = test::torus();
+  Mesh bent = mesh;
+  for (Index v = 0; v < bent.positions.rows(); ++v) {
+    bent.positions(v, 2) += 0.4 * std::sin(2 * bent.positions(v, 0));
+    bent.positions(v, 1) *= 1.7;
+  }
+  const Positions guides = vertex_normals(bent.positions, bent.triangles);
+  for (const double smoothing : {0.0, 0.05}) {
+    LocalMapStep::Rest rest = rest_of(mesh, smoothing);
+    rest.guidance = 0.1;
+    const Transforms last = identities(mesh.positions.rows());
+    Transforms maps = last;
+    backend_->local_map(rest)->fit(bent.positions, guides, maps);
+    for (Index v = 0; v < maps.rows(); v += 7) {
+      const Eigen::Vector3d n = rest.pairs.normals.row(v), found = map_of(maps, v) * n;
+      EXPECT_NEAR(found.norm(), 1, GetParam().tolerance);
+      const double least = left_over(rest, bent.positions, guides, v, found);
+      for (const Eigen::Vector3d& aside : {Eigen::Vector3d(0.02, 0, 0), {0, 0.02, 0}, {0, 0, 0.02}}) {
+        for (const double sign : {-1.0, 1.0}) {
+          const Eigen::Vector3d other = (found + sign * aside).normalized();
+          EXPECT_LE(least, left_over(rest, bent.positions, guides, v, other) * (1 + GetParam().tolerance)) << v;
+        }
+      }
+      EXPECT_LT(least, left_over(rest, bent.positions, guides, v, -found));
+    }
+  }
+}
+
+/// Where the surface has only turned they are its own, whatever the guidance.
+TEST_P(LocalMapStepBy, LeavesNormalsThatFit) {
+  if (!backend_) return;
+  const Mesh mesh = test::sphere(1, 2);
+  const Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
+  const Positions positions = mesh.positions * turn.transpose();
+  for (const double guidance : {1e-3, 1.0, 1e3}) {
+    LocalMapStep::Rest rest = rest_of(mesh, 0);
+    rest.guidance = guidance;
+    Transforms maps;
+    backend_->local_map(rest)->fit(positions, rest.pairs.normals * turn.transpose(), maps);
+    for (Index v = 0; v < maps.rows(); ++v) EXPECT_LT((map_of(maps, v) - turn).norm(), 20 * GetParam().tolerance);
+  }
 }
 
 TEST_P(LocalMapStepBy, RefusesOtherRows) {
