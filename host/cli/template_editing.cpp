@@ -31,7 +31,7 @@ void add_editing_options(CLI::App& app, TemplateEditOptions& options) {
   };
   add("--tracking", options.tracking, "How much following the template counts against keeping the shape (1)", 1e-6,
       1e6);
-  add("--smoothing", options.smoothing, "How far neighbours' maps are joined, a part of the diagonal, 0 to 1 (0.02)", 0,
+  add("--smoothing", options.smoothing, "How far neighbours' maps are joined, a part of the diagonal, 0 to 1 (0.1)", 0,
       1);
   add("--feature-angle", options.feature_angle, "Across sharper edges they are not, degrees (30)", 1e-3, 180);
   add("--sub-edits", options.sub_edits, "Steps on the parameters' way (0: as many as are needed)", 0, 10000);
@@ -90,6 +90,7 @@ void add_edit(Json& json, const Mesh& rest, const TemplateEditResult& result, st
   add_changes(json, rest, {}, result.positions, warnings);
   json["handle_error"] = json["largest"];
   json["flipped_triangles"] = result.flipped;
+  json["released_vertices"] = result.released;
 }
 
 }  // namespace swage::cli

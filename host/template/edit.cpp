@@ -1,4 +1,7 @@
 // A mesh that follows its template.
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "edit_plan.h"
@@ -24,9 +27,25 @@ TemplateEditResult told(const EditPlan& plan, double seconds, TemplateEditResult
   report.seconds["precompute"] = plan.prepare_seconds;
   report.seconds["solve"] = seconds;
   if (report.stop != Termination::cancelled) {
-    warn_of_shape({plan.counts, plan.edges, plan.flat_triangles, plan.components}, report);
+    const auto flat = static_cast<int>(std::count(plan.is_flat.begin(), plan.is_flat.end(), 1));
+    warn_of_shape({plan.counts, plan.edges, flat, plan.components}, report);
   }
   return result;
+}
+
+void warn_of_end(const EditPlan& plan, TemplateEditResult& result) {
+  Report& report = result.report;
+  std::ostringstream text;
+  text << std::setprecision(2);
+  if (report.stop == Termination::pass_limit) {
+    text << "the limit of " << plan.options.passes << " passes was reached before the mesh stood still: the last one "
+         << "moved a vertex by " << 100 * report.movements.back() / plan.diagonal << " % of the box diagonal";
+    report.warnings.push_back(text.str());
+  }
+  if (result.flipped > 0) {
+    report.warnings.push_back(std::to_string(result.flipped) +
+                              " triangles turned over: the mesh cannot do there what the template asks for");
+  }
 }
 
 /// From where the last call left the mesh.
@@ -37,6 +56,7 @@ TemplateEditResult advanced(EditPlan& plan, const Eigen::VectorXd& target, const
     const Stopwatch watch(seconds);
     result = result_of(plan, target, advance(plan, target, progress));
   }
+  warn_of_end(plan, result);
   return told(plan, seconds, std::move(result));
 }
 

@@ -4,8 +4,9 @@
 //   sum over vertices v and the edges (u, w) around them of c |d_w - d_u - J_v (w - u) + (w' - u')|²   (paper eq. 10)
 //   + sum over vertices of m_v (a_v . d_v - (f_v - f'(v')) / |grad f'|)²                               (eq. 8)
 // with the maps J_v of the local_map step, which take the mesh's rest normal to that now, and a_v the mean of the
-// directions of grad f' and J_v grad f. Normals are the mesh's, not the field's: where that bends within less than an
-// edge, maps by its gradients would turn farther than the vertices that they move, pass by pass.
+// directions of grad f' and J_v grad f. Normals now are those that leave the first sum least, near the mesh's. The
+// field's, or the mesh's alone, are not what the sum asks for: where those bend within less than an edge, or triangles
+// are slivers, each pass would turn them farther than the vertices that they move.
 #pragma once
 
 #include <memory>
@@ -36,7 +37,7 @@ struct Tracking {
   Positions gradients;      ///< grad f' / |grad f'|
   Positions directions;     ///< a_v
   Eigen::VectorXd gaps;     ///< (f_v - f') / |grad f'|, f_v grown along
-  Eigen::VectorXd weights;  ///< m_v: 0 where the field tells nothing.
+  Eigen::VectorXd weights;  ///< m_v as trusted: 0 where the field tells nothing.
 };
 
 struct EditPlan {
@@ -64,7 +65,8 @@ struct EditPlan {
   Positions rest_gradients = {};     ///< grad f / |grad f|
   Positions rest_normals = {};       ///< Of the mesh.
   Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
-  int components = 1, flat_triangles = 0;
+  std::vector<char> is_flat = {};    ///< A triangle each.
+  int components = 1;
   std::string told_components = "one";
   double prepare_seconds = 0;
   bool prepared = false;
@@ -74,7 +76,8 @@ struct EditPlan {
   Eigen::VectorXd parameters = {};
   Positions positions = {};
   Transforms maps = {};
-  double growth = 1;  ///< Of the template as a whole: what lies off its surface grows along.
+  Eigen::VectorXd trust = {};  ///< Parts of m_v: less around triangles that turned over.
+  double growth = 1;           ///< Of the template as a whole: what lies off its surface grows along.
   Tracking tracking = {};
   GradientsWork<Eigen::VectorXd> work = {};
 };
@@ -107,6 +110,12 @@ bool move_as_whole(EditPlan& plan);
 /// Moves the mesh to where the target's template is where that is the source's, moved, turned and scaled. False, and
 /// nothing has moved, where it is not.
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
+
+// edit_flips.cpp
+/// Triangles that face against where their corners' maps take their rest normal, but those that were flat at rest.
+std::vector<int> flipped(const EditPlan& plan);
+/// What the template asks of the vertices as many rings around them they cannot do: they go with their neighbours.
+void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings);
 
 // follow.cpp
 /// Of conjugate gradients in a pass: until the mesh stands still, and while it is dragged.

@@ -24,6 +24,7 @@ using Eigen::Index;
 constexpr double kReach = 0.01;              // Of D: what is smaller follows its surroundings rather than the template.
 constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
 constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
+constexpr double kGuidance = 0.1;            // Of the mesh's normals: enough where edges tell of none.
 constexpr double kAbout = 0.3;               // Part of the tracking weights that is factored.
 
 Eigen::VectorXd tracking_weights(const EditPlan& plan, const Mesh& unit_mesh) {
@@ -79,22 +80,23 @@ void make(EditPlan& plan, const ProgressFn& progress) {
   const Backend& backend = *plan.options.backend;
   plan.field = plan.of.field(backend);
   sign(plan, unit_mesh);
-  const std::vector<char> is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  plan.is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
   const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
   plan.components = 1 + *std::max_element(component.begin(), component.end());
-  plan.flat_triangles = static_cast<int>(std::count(is_flat.begin(), is_flat.end(), 1));
   preparation.begin("components", 0);
   // No scaffold: the template carries what is apart.
   const Joined joined = join_components(unit_mesh, plan.edges, When::never, preparation.poll());
   plan.told_components = joined.told;
   preparation.begin("elements", 0.4);
-  const Positions weights =
-      half_cotangents(unit_mesh.positions, unit_mesh.triangles, is_flat).cwiseMax(kWeights[0]).cwiseMin(kWeights[1]);
+  const Positions weights = half_cotangents(unit_mesh.positions, unit_mesh.triangles, plan.is_flat)
+                                .cwiseMax(kWeights[0])
+                                .cwiseMin(kWeights[1]);
   plan.elements = vertex_elements(unit_mesh, weights);
   add_ties(unit_mesh.positions, joined.ties, mean_edge_length(unit_mesh.positions, unit_mesh.triangles), plan.elements);
   LocalMapStep::Rest rest;
   rest.pairs = plan.elements.pairs;
   rest.pairs.normals = plan.rest_normals;
+  rest.guidance = kGuidance;
   if (plan.options.smoothing > 0) {
     join_neighbours(plan.edges, are_features(plan, unit_mesh), plan.options.smoothing * plan.diagonal, rest);
   }
@@ -146,6 +148,7 @@ void reset(EditPlan& plan) {
   plan.positions = plan.elements.pairs.vertices;
   plan.maps = identities(plan.positions.rows());
   plan.growth = 1;
+  plan.trust.setOnes(plan.weights.size());
 }
 
 }  // namespace swage

@@ -1,6 +1,7 @@
 // Passes.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "anderson.h"
 #include "cancel.h"
@@ -21,6 +22,8 @@ constexpr int kWholeMoves = 5;    // Of a pass.
 constexpr double kBegin = 0.02;   // Of a sub-edit.
 constexpr double kSolved = 1e-4;  // Part of the error that ends conjugate gradients.
 constexpr int kWindow = 3;        // Passes that the next start is made of.
+constexpr int kPatience = 50;     // Passes until triangles that turned over are looked at,
+constexpr int kReleases = 16;     // and how often they are released.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
 Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
@@ -102,6 +105,31 @@ void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
   if (!move_as_whole(plan)) place(plan, kSettling);
 }
 
+/// Passes at the target, by `one`, until the mesh stands still with no triangle turned over, or there are enough.
+template <typename One>
+void settle(EditPlan& plan, Report& report, const One& one) {
+  std::optional<Anderson> acceleration(kWindow);
+  Positions start;
+  int releases = 0, since = 0;
+  while (report.passes < plan.options.passes) {
+    if (since > 0) plan.positions = acceleration->next(start, plan.positions);
+    start = plan.positions;
+    one();
+    ++since;
+    const bool stands = report.movements.back() < plan.options.tolerance * plan.diagonal;
+    if (!stands && since < kPatience) continue;
+    const std::vector<int> over = releases < kReleases ? flipped(plan) : std::vector<int>();
+    if (stands && over.empty()) {
+      report.stop = Termination::moved_little;
+      return;
+    }
+    if (over.empty()) continue;
+    distrust(plan, over, releases++ / 3);
+    since = 0;
+    acceleration.emplace(kWindow);
+  }
+}
+
 }  // namespace
 
 double pass(EditPlan& plan, const VectorXd& parameters, int iterations) {
@@ -147,19 +175,7 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
       ++sub_edits;
       for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at);
     }
-    Anderson acceleration(kWindow);
-    Positions start;
-    bool accelerates = false;
-    while (report.passes < plan.options.passes) {
-      if (accelerates) plan.positions = acceleration.next(start, plan.positions);
-      start = plan.positions;
-      one(1);
-      if (report.movements.back() < plan.options.tolerance * plan.diagonal) {
-        report.stop = Termination::moved_little;
-        break;
-      }
-      accelerates = true;
-    }
+    settle(plan, report, [&] { one(1); });
   } catch (const Cancelled&) {
     report.stop = Termination::cancelled;
   }
@@ -167,32 +183,14 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
   return report;
 }
 
-namespace {
-
-/// Triangles that face against where their corners' maps take their rest normal.
-int flipped(const EditPlan& plan) {
-  const Positions before = area_vectors(plan.elements.pairs.vertices, plan.mesh.triangles),
-                  after = area_vectors(plan.positions, plan.mesh.triangles);
-  const Transforms maps = matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps);
-  int count = 0;
-  for (Index t = 0; t < before.rows(); ++t) {
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(maps.row(t).data());
-    Eigen::Matrix3d cofactors;
-    cofactors << map.row(1).cross(map.row(2)), map.row(2).cross(map.row(0)), map.row(0).cross(map.row(1));
-    count += (cofactors * before.row(t).transpose()).dot(after.row(t)) < 0 ? 1 : 0;
-  }
-  return count;
-}
-
-}  // namespace
-
 TemplateEditResult result_of(EditPlan& plan, const VectorXd& target, Report report) {
   TemplateEditResult result;
   track(plan, target);
   const Eigen::ArrayXd off = plan.tracking.gaps.array().abs() / plan.diagonal;
   result.residual = off.mean();
   result.largest = off.maxCoeff();
-  result.flipped = flipped(plan);
+  result.flipped = static_cast<int>(flipped(plan).size());
+  result.released = static_cast<int>((plan.trust.array() < 1).count());
   const Positions placed = plan.box.back(plan.positions);
   result.positions = plan.pose.back(
       plan.given ? plan.given->back(placed, matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps))

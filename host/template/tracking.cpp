@@ -21,12 +21,12 @@ void track(EditPlan& plan, const Eigen::VectorXd& parameters) {
   const Index count = plan.positions.rows();
   tracking.gradients.resize(count, 3);
   tracking.gaps.resize(count);
-  tracking.weights = plan.weights;
+  tracking.weights = plan.weights.cwiseProduct(plan.trust);
 #pragma omp parallel for schedule(static)
   for (Index v = 0; v < count; ++v) {
     const double slope = tracking.field.gradients.row(v).norm();
     const double gap = (plan.growth * plan.rest_values[v] - tracking.field.values[v]) / slope;
-    if (plan.weights[v] > 0 && slope > kNoSlope && std::isfinite(slope) && std::isfinite(gap)) {
+    if (tracking.weights[v] > 0 && slope > kNoSlope && std::isfinite(slope) && std::isfinite(gap)) {
       tracking.gradients.row(v) = tracking.field.gradients.row(v) / slope;
       tracking.gaps[v] = gap;
     } else {

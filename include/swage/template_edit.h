@@ -17,7 +17,7 @@ namespace swage {
 
 struct TemplateEditOptions {
   double tracking = 1;               ///< Weight of following the template against keeping the shape, above 0.
-  double smoothing = 0.02;           ///< How far neighbours' maps are joined: sigma_s as a part of D, at least 0.
+  double smoothing = 0.1;            ///< How far neighbours' maps are joined: sigma_s as a part of D, at least 0.
   double feature_angle = 30;         ///< Degrees: neighbours are not joined across sharper edges. (0, 180].
   int sub_edits = 0;                 ///< Steps on the parameters' way; 0: as many as the residual asks for.
   int passes = 1000;                 ///< At most in all, at least 1.
@@ -29,7 +29,8 @@ struct TemplateEditResult {
   Positions positions;
   double residual = 0;  ///< Mean over vertices of |f'(v') - f(v)| / |grad f'|, as a part of D.
   double largest = 0;   ///< The largest, likewise.
-  int flipped = 0;      ///< Triangles whose normal turned against that of the template's map.
+  int flipped = 0;      ///< Triangles whose normal turned against that of the template's map; none that were flat.
+  int released = 0;     ///< Vertices around triangles that turned over, which follow their neighbours instead.
   Report report;
 };
 

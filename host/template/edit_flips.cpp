@@ -1,0 +1,50 @@
+// Triangles that turn over: there the template asks for what the mesh cannot do.
+#include <algorithm>
+
+#include "edit_plan.h"
+#include "matrices.h"
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kTrust = 0.1;   // Part of the tracking that is left, each time,
+constexpr double kLeast = 1e-3;  // and in the end: what is not held at all drifts away.
+
+}  // namespace
+
+std::vector<int> flipped(const EditPlan& plan) {
+  const Positions before = area_vectors(plan.elements.pairs.vertices, plan.mesh.triangles),
+                  after = area_vectors(plan.positions, plan.mesh.triangles);
+  const Transforms maps = matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps);
+  std::vector<int> found;
+  for (Index t = 0; t < before.rows(); ++t) {
+    if (plan.is_flat[static_cast<size_t>(t)] != 0) continue;
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(maps.row(t).data());
+    Eigen::Matrix3d cofactors;
+    cofactors << map.row(1).cross(map.row(2)), map.row(2).cross(map.row(0)), map.row(0).cross(map.row(1));
+    if ((cofactors * before.row(t).transpose()).dot(after.row(t)) < 0) found.push_back(static_cast<int>(t));
+  }
+  return found;
+}
+
+void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings) {
+  std::vector<char> reached(static_cast<size_t>(plan.trust.size()), 0);
+  for (const int t : triangles) {
+    for (const int v : plan.mesh.triangles.row(t)) reached[static_cast<size_t>(v)] = 1;
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> before = reached;
+    for (const auto& edge : plan.edges.vertices.rowwise()) {
+      const auto a = static_cast<size_t>(edge[0]), b = static_cast<size_t>(edge[1]);
+      if (before[a] != 0) reached[b] = 1;
+      if (before[b] != 0) reached[a] = 1;
+    }
+  }
+  for (Index v = 0; v < plan.trust.size(); ++v) {
+    if (reached[static_cast<size_t>(v)] != 0) plan.trust[v] = std::max(kLeast, kTrust * plan.trust[v]);
+  }
+}
+
+}  // namespace swage

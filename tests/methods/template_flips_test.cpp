@@ -1,0 +1,79 @@
+// Triangles that turn over while they follow a template (host/template/edit_flips.cpp), and what keeps passes steady.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "edit_plan.h"
+#include "shapes.h"
+#include "swage/template_edit.h"
+
+namespace swage::test {
+namespace {
+
+using Eigen::Index;
+
+/// A plate under a box template, prepared.
+std::unique_ptr<EditPlan> plate(int size) {
+  const Template of = shipped_template("box");
+  const Mesh mesh = sheet(size);
+  std::unique_ptr<EditPlan> plan = plan_of(of, of.defaults(), {}, mesh.positions, mesh.triangles, {});
+  prepare(*plan, {});
+  return plan;
+}
+
+TEST(TemplateFlips, FindsWhatFacesAgainstItsMaps) {
+  const auto plan = plate(6);
+  EXPECT_TRUE(flipped(*plan).empty());
+  const auto corner = plan->mesh.triangles.row(10);
+  const Positions rest = plan->positions;
+  // A corner mirrored at the opposite side turns that triangle over and, of its neighbours, maybe more.
+  const Eigen::RowVector3d from = rest.row(corner[1]), side = (rest.row(corner[2]) - from).normalized();
+  const Eigen::RowVector3d off = rest.row(corner[0]) - from, along = off.dot(side) * side;
+  plan->positions.row(corner[0]) = from + along - (off - along);
+  const std::vector<int> found = flipped(*plan);
+  EXPECT_NE(std::find(found.begin(), found.end(), 10), found.end());
+  EXPECT_LE(found.size(), 6);
+  plan->is_flat.assign(plan->is_flat.size(), 1);
+  EXPECT_TRUE(flipped(*plan).empty());
+}
+
+TEST(TemplateFlips, ReleasesAsManyRingsAround) {
+  const auto plan = plate(12);
+  const Positions rest = plan->positions;
+  const int middle = static_cast<int>(plan->mesh.triangles.rows()) / 2;
+  distrust(*plan, {middle}, 0);
+  EXPECT_EQ((plan->trust.array() < 1).count(), 3);
+  const Eigen::VectorXd once = plan->trust;
+  distrust(*plan, {middle}, 2);
+  const Index more = (plan->trust.array() < 1).count();
+  EXPECT_GT(more, 12);
+  EXPECT_LT(more, 40);
+  for (Index v = 0; v < rest.rows(); ++v) EXPECT_LE(plan->trust[v], once[v]);
+  // Nothing is let go of altogether.
+  for (int i = 0; i < 20; ++i) distrust(*plan, {middle}, 3);
+  EXPECT_GT(plan->trust.minCoeff(), 1e-4);
+  reset(*plan);
+  EXPECT_EQ(plan->trust.minCoeff(), 1);
+}
+
+TEST(TemplateFlips, PassesCalmWhatWasDisturbed) {
+  const Template of = shipped_template("lamp");
+  Mesh mesh = template_mesh(of, of.defaults(), {24, nullptr});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  auto plan = plan_of(of, of.defaults(), {}, mesh.positions, mesh.triangles, {});
+  prepare(*plan, {});
+  const Positions rest = plan->positions;
+  for (double& x : plan->positions.reshaped()) x += 1e-4 * plan->diagonal * noise(random);
+  double first = 0, last = 0;
+  for (int i = 0; i < 200; ++i) {
+    last = pass(*plan, of.defaults(), kSettling);
+    if (i == 0) first = last;
+  }
+  EXPECT_LT(last, 0.02 * first);
+  EXPECT_LT((plan->positions - rest).rowwise().norm().maxCoeff(), 5e-4 * plan->diagonal);
+  EXPECT_TRUE(flipped(*plan).empty());
+}
+
+}  // namespace
+}  // namespace swage::test
