@@ -195,7 +195,7 @@ TEST_F(TemplateEditing, OptionsOfTheSolveCount) {
   const Arguments set{"--set", "width*=1.5", "twist=25", "-o", "-"};
   const std::string usual = out_of(edit_ + set);
   EXPECT_TRUE(out_of(edit_ + set +
-                     Arguments{"--tracking", "1", "--smoothing", "0.02", "--feature-angle", "30", "--sub-edits", "0",
+                     Arguments{"--tracking", "1", "--smoothing", "0.1", "--feature-angle", "30", "--sub-edits", "0",
                                "--passes", "1000", "--tolerance", "1e-5"}) == usual);
   for (const Arguments& other : {Arguments{"--tracking", "10"}, {"--passes", "1"}, {"--sub-edits", "1"}}) {
     EXPECT_FALSE(out_of(edit_ + set + other) == usual) << other.front();
