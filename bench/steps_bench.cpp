@@ -22,7 +22,6 @@
 #include "spokes_and_rims.h"
 #include "step_inputs.h"
 #include "swage/curvature.h"
-#include "swage/error.h"
 #include "swage/template.h"
 #ifdef SWAGE_BENCH_OPENCL
 #include "device_peak.h"
@@ -115,25 +114,12 @@ void count_flops(benchmark::State& state, const Flops& per_element, int elements
   state.counters["flop_share"] = benchmark::Counter(flops / peak, benchmark::Counter::kIsRate);
 }
 
-void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [run](benchmark::State& state) {
-                                 try {
-                                   run(state);
-                                 } catch (const Unavailable& reason) {
-                                   state.SkipWithError(reason.what());
-                                 }
-                               })
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
-}
-
 using Prepare = std::function<Work(const Backend& backend, int elements, double real_size)>;
 
 void add_step(const std::string& step, const Prepare& prepare) {
   for (const Choice& choice : choices()) {
     for (const int elements : kSizes) {
-      add(step + "/" + choice.name + "/" + std::to_string(elements), [=](benchmark::State& state) {
+      add_benchmark(step + "/" + choice.name + "/" + std::to_string(elements), [=](benchmark::State& state) {
         const std::shared_ptr<Backend> backend = choice.backend();
         const Work work = prepare(*backend, elements, choice.real_size);
         const Traffic before = backend->traffic();
@@ -281,13 +267,15 @@ void add_field() {
   });
 }
 
-/// An element a vertex: its spokes and rims with their edges, two normals, a position, and a map.
+/// An element a vertex: its spokes and rims with their edges, two normals, a position, and a map. Normals are fitted,
+/// as in edits by templates.
 void add_local_map() {
   add_step("local_map", [](const Backend& backend, int elements, double real_size) {
     const Mesh mesh = mesh_of(2 * elements);
     LocalMapStep::Rest rest;
     rest.pairs = vertex_elements(mesh, Positions::Ones(mesh.triangles.rows(), 3)).pairs;
     rest.pairs.normals = vertex_normals(mesh.positions, mesh.triangles);
+    rest.guidance = 0.1;
     const double pairs = static_cast<double>(rest.pairs.pairs.rows()) / elements;
     const std::shared_ptr<LocalMapStep> step = backend.local_map(rest);
     const Mesh moved = {(2 * mesh.positions).array().sin(), mesh.triangles};
@@ -301,7 +289,7 @@ void add_local_map() {
 /// The closest rotations alone, of matrices that lie where they are needed.
 void add_closest_rotation_by_cpu() {
   for (const int elements : kSizes) {
-    add("closest_rotation/cpu/double/" + std::to_string(elements), [=](benchmark::State& state) {
+    add_benchmark("closest_rotation/cpu/double/" + std::to_string(elements), [=](benchmark::State& state) {
       const Transforms matrices = Transforms::Random(elements, 9);
       Transforms rotations(elements, 9);
       const Work work{[&] {
@@ -323,10 +311,10 @@ void add_device(const std::string& name, const DeviceRun& run) {
   for (const auto& [label, precision, real_size] :
        {std::tuple{"single", Precision::single, 4.0}, std::tuple{"double", Precision::twice, 8.0}}) {
     for (const int elements : kSizes) {
-      add(name + "/opencl/" + label + "/" + std::to_string(elements),
-          [=, precision = precision, real_size = real_size](benchmark::State& state) {
-            run(state, queue_on(precision), elements, real_size);
-          });
+      add_benchmark(name + "/opencl/" + label + "/" + std::to_string(elements),
+                    [=, precision = precision, real_size = real_size](benchmark::State& state) {
+                      run(state, queue_on(precision), elements, real_size);
+                    });
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,6 @@
 #include "peak_memory.h"
 #include "plan.h"
 #include "shapes.h"
-#include "swage/error.h"
 #ifdef SWAGE_BENCH_CGAL
 #include "cgal_arap.h"
 #endif
@@ -36,18 +36,7 @@ Mesh torus_of(int vertices) {
   return mesh;
 }
 
-struct Choice {
-  std::string name;
-  std::shared_ptr<Backend> (*backend)();
-};
-
-std::vector<Choice> choices() {
-  return {{"cpu/double", [] { return cpu_backend(); }},
-          {"opencl/single", [] { return opencl_backend("", Precision::single); }},
-          {"opencl/double", [] { return opencl_backend("", Precision::twice); }}};
-}
-
-StylizeOptions options_of(StylizeEnergy energy, const Choice& choice) {
+StylizeOptions options_of(StylizeEnergy energy, const NamedBackend& choice) {
   StylizeOptions options;
   options.energy = energy;
   options.pass_limit = kPasses;
@@ -58,7 +47,7 @@ StylizeOptions options_of(StylizeEnergy energy, const Choice& choice) {
 
 ClosestNormals cube() { return closest_normals(style_shape(StyleShape::cube)); }
 
-void prepare(benchmark::State& state, StylizeEnergy energy, const Choice& choice) {
+void prepare(benchmark::State& state, StylizeEnergy energy, const NamedBackend& choice) {
   const Mesh mesh = torus_of(static_cast<int>(state.range(0)));
   const StylizeOptions options = options_of(energy, choice);
   for (auto _ : state) {
@@ -67,7 +56,7 @@ void prepare(benchmark::State& state, StylizeEnergy energy, const Choice& choice
   }
 }
 
-void passes(benchmark::State& state, StylizeEnergy energy, const Choice& choice) {
+void passes(benchmark::State& state, StylizeEnergy energy, const NamedBackend& choice) {
   const Mesh mesh = torus_of(static_cast<int>(state.range(0)));
   Stylize plan(mesh.positions, mesh.triangles, options_of(energy, choice));
   plan.solve(cube());
@@ -76,13 +65,13 @@ void passes(benchmark::State& state, StylizeEnergy energy, const Choice& choice)
   state.counters["peak_mb"] = peak_memory();
 }
 
-std::unique_ptr<StylizePlan> prepared(benchmark::State& state, StylizeEnergy energy, const Choice& choice) {
+std::unique_ptr<StylizePlan> prepared(benchmark::State& state, StylizeEnergy energy, const NamedBackend& choice) {
   std::unique_ptr<StylizePlan> plan = plan_of(torus_of(static_cast<int>(state.range(0))), options_of(energy, choice));
   swage::prepare(*plan, {});
   return plan;
 }
 
-void local_step(benchmark::State& state, StylizeEnergy energy, const Choice& choice) {
+void local_step(benchmark::State& state, StylizeEnergy energy, const NamedBackend& choice) {
   const std::unique_ptr<StylizePlan> plan = prepared(state, energy, choice);
   const std::unique_ptr<StylizeSteps> steps = steps_of(*plan);
   const Positions moved = (2 * plan->elements.pairs.vertices).array().sin();
@@ -90,7 +79,7 @@ void local_step(benchmark::State& state, StylizeEnergy energy, const Choice& cho
   for (auto _ : state) fit(*plan, *steps, moved, plan->elements.pairs.normals, 1, fitted);
 }
 
-void global_step(benchmark::State& state, StylizeEnergy energy, const Choice& choice) {
+void global_step(benchmark::State& state, StylizeEnergy energy, const NamedBackend& choice) {
   const std::unique_ptr<StylizePlan> plan = prepared(state, energy, choice);
   const HeldPoints points = points_held(*plan, {});
   const HeldLaplacian held(plan->system, points);
@@ -119,20 +108,14 @@ void passes_of_cgal(benchmark::State& state) {
 }
 #endif
 
-template <class Run>
-void add(const std::string& name, const Run& run, int most_vertices = 1'000'000) {
-  auto* benchmark = benchmark::RegisterBenchmark(name.c_str(), [run](benchmark::State& state) {
-    try {
-      run(state);
-    } catch (const Unavailable& reason) {
-      state.SkipWithError(reason.what());
-    }
-  });
+/// On meshes of up to so many vertices.
+void add_sizes(const std::string& name, const std::function<void(benchmark::State&)>& run,
+               int most_vertices = 1'000'000) {
+  auto* benchmark = add_benchmark(name, run);
   const int most = std::getenv("SWAGE_BENCH_LARGE") ? most_vertices : std::min(most_vertices, 200'000);
   for (const int vertices : {3'000, 10'000, 20'000, 50'000, 200'000, 1'000'000}) {
     if (vertices <= most) benchmark->Arg(vertices);
   }
-  benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
 }  // namespace
@@ -141,18 +124,18 @@ void register_all() {
   using enum StylizeEnergy;
   for (const StylizeEnergy energy : {arap, farap, acap}) {
     const std::string name = to_string(energy);
-    const Choice reference = choices().front();
-    add("prepare/" + name, [=](benchmark::State& state) { prepare(state, energy, reference); });
-    add("global/" + name, [=](benchmark::State& state) { global_step(state, energy, reference); });
-    for (const Choice& choice : choices()) {
+    const NamedBackend reference = named_backends().front();
+    add_sizes("prepare/" + name, [=](benchmark::State& state) { prepare(state, energy, reference); });
+    add_sizes("global/" + name, [=](benchmark::State& state) { global_step(state, energy, reference); });
+    for (const NamedBackend& choice : named_backends()) {
       const std::string by = "/" + name + "/" + choice.name;
-      add("local" + by, [=](benchmark::State& state) { local_step(state, energy, choice); });
-      add("passes" + by, [=](benchmark::State& state) { passes(state, energy, choice); });
+      add_sizes("local" + by, [=](benchmark::State& state) { local_step(state, energy, choice); });
+      add_sizes("passes" + by, [=](benchmark::State& state) { passes(state, energy, choice); });
     }
   }
 #ifdef SWAGE_BENCH_CGAL
-  add("prepare/cgal_arap", prepare_cgal, 50'000);
-  add("passes/cgal_arap", passes_of_cgal, 200'000);
+  add_sizes("prepare/cgal_arap", prepare_cgal, 50'000);
+  add_sizes("passes/cgal_arap", passes_of_cgal, 200'000);
 #endif
 }
 

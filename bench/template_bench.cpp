@@ -11,38 +11,12 @@
 
 #include "bench_main.h"
 #include "stopwatch.h"
-#include "swage/error.h"
 #include "swage/template_edit.h"
 
 namespace swage::bench {
 namespace {
 
 using Eigen::ArrayXd;
-
-struct Choice {
-  std::string name;
-  std::shared_ptr<Backend> (*backend)();
-};
-
-std::vector<Choice> choices() {
-  return {{"cpu/double", [] { return cpu_backend(); }},
-          {"opencl/single", [] { return opencl_backend("", Precision::single); }},
-          {"opencl/double", [] { return opencl_backend("", Precision::twice); }}};
-}
-
-template <typename Run>
-void add(const std::string& name, const Run& run) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [run](benchmark::State& state) {
-                                 try {
-                                   run(state);
-                                 } catch (const Unavailable& reason) {
-                                   state.SkipWithError(reason.what());
-                                 }
-                               })
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
-}
 
 ArrayXd made(TapeOp op, const ArrayXd& a, const ArrayXd& b) {
   switch (op) {
@@ -95,12 +69,12 @@ void add_fields() {
       state.SetItemsProcessed(state.iterations() * kPoints);
       state.counters["instructions"] = static_cast<double>(of.tape().body.size());
     };
-    add(std::string("field/arrays/double/") + name, [=](benchmark::State& state) {
+    add_benchmark(std::string("field/arrays/double/") + name, [=](benchmark::State& state) {
       for (auto _ : state) benchmark::DoNotOptimize(by_arrays(of.tape(), of.defaults(), points));
       count(state);
     });
-    for (const Choice& choice : choices()) {
-      add("field/" + choice.name + "/" + name, [=](benchmark::State& state) {
+    for (const NamedBackend& choice : named_backends()) {
+      add_benchmark("field/" + choice.name + "/" + name, [=](benchmark::State& state) {
         const std::shared_ptr<Backend> backend = choice.backend();
         const std::unique_ptr<FieldStep> step = of.field(*backend);
         FieldValues field;
@@ -114,7 +88,7 @@ void add_fields() {
 
 void add_fits() {
   for (const char* name : {"box", "couch", "chair", "vase"}) {
-    add(std::string("fit/") + name, [=](benchmark::State& state) {
+    add_benchmark(std::string("fit/") + name, [=](benchmark::State& state) {
       const Template of = shipped_template(name);
       const Mesh mesh = template_mesh(of, of.defaults(), {64, nullptr});
       for (auto _ : state) {
@@ -125,8 +99,8 @@ void add_fits() {
   }
 }
 
-void add_follow(const Choice& choice, const char* vertices, int resolution) {
-  add("follow/" + choice.name + "/" + vertices, [=](benchmark::State& state) {
+void add_follow(const NamedBackend& choice, const char* vertices, int resolution) {
+  add_benchmark("follow/" + choice.name + "/" + vertices, [=](benchmark::State& state) {
     const Template couch = shipped_template("couch");
     const Mesh mesh = template_mesh(couch, couch.defaults(), {resolution, nullptr});
     TemplateEditOptions options;
@@ -155,7 +129,7 @@ void add_follow(const Choice& choice, const char* vertices, int resolution) {
 void register_all() {
   add_fields();
   add_fits();
-  for (const Choice& choice : choices()) {
+  for (const NamedBackend& choice : named_backends()) {
     add_follow(choice, "8k", 56);
     add_follow(choice, "34k", 69);
     add_follow(choice, "138k", 170);

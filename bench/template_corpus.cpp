@@ -2,8 +2,7 @@
 // surface and of the edits.
 //
 //   template_corpus FOLDER [NAME...]   writes there template_corpus.json and a picture of each kind; of the meshes
-//   whose
-//                                      file's name contains one of those named, or of all
+//                                      whose file's name contains one of those named, or of all
 #include <algorithm>
 #include <cstdio>
 #include <ctime>

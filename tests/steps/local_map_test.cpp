@@ -46,6 +46,14 @@ Matrix3d map_of(const Transforms& maps, Index i) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(maps.row(i).data());
 }
 
+Mesh bent_of(Mesh mesh) {
+  for (Index v = 0; v < mesh.positions.rows(); ++v) {
+    mesh.positions(v, 2) += 0.4 * std::sin(2 * mesh.positions(v, 0));
+    mesh.positions(v, 1) *= 1.7;
+  }
+  return mesh;
+}
+
 Transforms identities(Index count) {
   return Eigen::Matrix<double, 1, 9>(1, 0, 0, 0, 1, 0, 0, 0, 1).replicate(count, 1);
 }
@@ -118,11 +126,7 @@ TEST_P(LocalMapStepBy, IsTheMapOfAPlane) {
 TEST_P(LocalMapStepBy, TakesNormalsToNormals) {
   if (!backend_) return;
   const Mesh mesh = test::torus();
-  Mesh bent = mesh;
-  for (Index v = 0; v < bent.positions.rows(); ++v) {
-    bent.positions(v, 2) += 0.4 * std::sin(2 * bent.positions(v, 0));
-    bent.positions(v, 1) *= 1.7;
-  }
+  const Mesh bent = bent_of(mesh);
   const Positions before = vertex_normals(mesh.positions, mesh.triangles),
                   after = vertex_normals(bent.positions, bent.triangles);
   for (const double smoothing : {0.0, 0.05}) {
@@ -152,11 +156,7 @@ TEST_P(LocalMapStepBy, CarriesNeighboursAlong) {
 TEST_P(LocalMapStepBy, TurnsNormalsToFitBest) {
   if (!backend_) return;
   const Mesh mesh = test::torus();
-  Mesh bent = mesh;
-  for (Index v = 0; v < bent.positions.rows(); ++v) {
-    bent.positions(v, 2) += 0.4 * std::sin(2 * bent.positions(v, 0));
-    bent.positions(v, 1) *= 1.7;
-  }
+  const Mesh bent = bent_of(mesh);
   const Positions guides = vertex_normals(bent.positions, bent.triangles);
   for (const double smoothing : {0.0, 0.05}) {
     LocalMapStep::Rest rest = rest_of(mesh, smoothing);
