@@ -44,8 +44,8 @@ struct FitOptions {
 struct TemplateFit {
   Eigen::VectorXd parameters;  ///< Within their bounds.
   TemplatePose pose;
-  double residual = 0;        ///< Root mean square of |f| / |grad f| over the surface, a part of D.
-  double largest = 0;         ///< The largest, likewise.
+  double residual = 0;  ///< Root mean square of |f| / |grad f| over the surface, a part of D.
+  double largest = 0;   ///< The largest, likewise.
   /// The other way: root mean square of the distances from the template's surface to the mesh, a part of D. Large where
   /// the template has what the mesh has not.
   double excess = 0;
