@@ -79,8 +79,10 @@ Json report_json(const FitJob& job, const FitRun& run, const Backend& backend, c
 
 void tell(const FitJob& job, const FitRun& run, double seconds) {
   if (job.json != kStdout && job.output != kStdout) write_stdout(table_of(run.of, run.fit.parameters));
-  spdlog::info("{}: {} off by {:.2f} % of the diagonal, at most {:.1f} %; {} iterations, {:.2f} s", job.mesh, job.name,
-               100 * run.fit.residual, 100 * run.fit.largest, run.fit.report.passes, seconds);
+  spdlog::info(
+      "{}: {} off by {:.2f} % of the diagonal, at most {:.1f} %, and its surface by {:.2f} %; {} passes, {:.2f} s",
+      job.mesh, job.name, 100 * run.fit.residual, 100 * run.fit.largest, 100 * run.fit.excess, run.fit.report.passes,
+      seconds);
 }
 
 void run(const FitJob& job, const CommonOptions& common) {
