@@ -16,12 +16,7 @@ namespace swage::cli {
 namespace {
 
 std::string version_text() {
-  std::string text = "swage " SWAGE_VERSION "\noptional parts: " SWAGE_OPTIONAL_PARTS "\nlicence: ";
-  // Apache-2.0 goes with version 3 of the GPL only.
-  text += SWAGE_HAS_CHOLMOD
-              ? "GPL-3.0-or-later, as CHOLMOD's supernodal factor (GPL-2.0-or-later) and METIS (Apache-2.0) "
-                "are in; without them MIT"
-              : "MIT";
+  const std::string text = "swage " SWAGE_VERSION "\noptional parts: " SWAGE_IN "\nlicence: " SWAGE_LICENCE;
   const std::string helpers = SWAGE_HELPER_PROGRAMS;
   return helpers.empty() ? text : text + "\nrun as programs of their own, apart from this licence: " + helpers;
 }

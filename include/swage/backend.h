@@ -8,6 +8,7 @@
 
 #include "swage/steps.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// What a device computes in. Hosts and the reference compute in double.
@@ -74,3 +75,4 @@ std::vector<Device> opencl_devices();
 std::shared_ptr<Backend> opencl_backend(const std::string& device = "", Precision precision = Precision::twice);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include "swage/mesh.h"
 #include "swage/report.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct CompareOptions {
@@ -86,3 +87,4 @@ Comparison compare(const PositionsRef& rest, const PositionsRef& edit, const Tri
                    const CompareOptions& options = {}, const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

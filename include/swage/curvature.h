@@ -6,6 +6,7 @@
 #include "swage/backend.h"
 #include "swage/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// #F × 2: principal curvatures k1 >= k2 of each triangle, in 1 / mesh units, positive where the surface bends away
@@ -35,3 +36,4 @@ Curvatures curvature(const PositionsRef& positions, const TrianglesRef& triangle
 Curvatures read_unit_box_curvatures(const std::filesystem::path& path, int triangle_count);
 
 }  // namespace swage
+#pragma GCC visibility pop

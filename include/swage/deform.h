@@ -16,6 +16,7 @@
 #include "swage/report.h"
 #include "swage/when.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 enum class DeformMethod {
@@ -83,3 +84,4 @@ DeformResult deform(const PositionsRef& positions, const TrianglesRef& triangles
                     const DeformOptions& options = {}, const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include "swage/mesh.h"
 #include "swage/report.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// Vertices or triangles of one kind.
@@ -64,3 +65,4 @@ Diagnosis diagnose(const PositionsRef& positions, const TrianglesRef& triangles,
                    int crossing_limit = 1'000'000);
 
 }  // namespace swage
+#pragma GCC visibility pop

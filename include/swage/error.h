@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// An argument breaks the function's contract. The message names the function, the argument and the index.
@@ -33,3 +34,4 @@ struct Unavailable : std::runtime_error {
 };
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include "swage/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// #E × 2: the two vertices of each edge, first below second, ascending.
@@ -43,3 +44,4 @@ std::vector<std::vector<int>> straight_chains(const PositionsRef& positions, con
                                               const StraightOptions& options = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

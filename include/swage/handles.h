@@ -13,6 +13,7 @@
 #include "swage/mesh.h"
 #include "swage/mesh_io.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// Handles of one edit. A handle whose target is its rest position is an anchor.
@@ -75,3 +76,4 @@ class Selection {
 };
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -3,6 +3,11 @@
 
 #include <Eigen/Core>
 
+static_assert(EIGEN_DEFAULT_ALIGN_BYTES == 0 || EIGEN_MALLOC_ALREADY_ALIGNED,
+              "A matrix made on one side of Swage's border is freed on the other, so both must allocate alike: link "
+              "swage::swage with CMake, or define EIGEN_MAX_ALIGN_BYTES=16");
+
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// #V × 3, in mesh units.
@@ -27,3 +32,4 @@ void check(const PositionsRef& positions, const TrianglesRef& triangles);
 double box_diagonal(const PositionsRef& positions);
 
 }  // namespace swage
+#pragma GCC visibility pop

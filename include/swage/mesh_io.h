@@ -10,6 +10,7 @@
 
 #include "swage/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 enum class MeshFormat { obj, ply, stl, off };
@@ -78,3 +79,4 @@ void write_face_values(const std::filesystem::path& path, const Mesh& mesh, cons
 void write_file(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include "swage/style.h"
 #include "swage/stylize.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct PolycubeOptions {
@@ -42,3 +43,4 @@ StylizeResult polycube(const PositionsRef& positions, const TrianglesRef& triang
                        const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

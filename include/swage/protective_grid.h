@@ -8,6 +8,7 @@
 
 #include "swage/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// A row a triangle, a cell or a vertex of the grid; a column an axis.
@@ -46,3 +47,4 @@ struct CellMap {
 AxisValues rest_vertices(const GridShape& shape);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 #include "swage/mesh.h"
 #include "swage/report.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct RemeshOptions {
@@ -39,3 +40,4 @@ Mesh remesh(const PositionsRef& positions, const TrianglesRef& triangles, const 
             const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

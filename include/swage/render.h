@@ -11,6 +11,7 @@
 #include "swage/mesh.h"
 #include "swage/report.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// What was asked of a vertex, as a dot that nothing hides: red where it is held, orange where it is moved.
@@ -98,3 +99,4 @@ std::string png(const Image& image);
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct Progress {
@@ -58,3 +59,4 @@ struct Report {
 };
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -20,6 +20,7 @@
 #include "swage/steps.h"
 #include "swage/when.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 enum class ReshapeMethod {
@@ -167,3 +168,4 @@ ReshapeResult reshape(const PositionsRef& positions, const TrianglesRef& triangl
                       const ReshapeOptions& options = {}, const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

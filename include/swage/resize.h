@@ -16,6 +16,7 @@
 #include "swage/protective_grid.h"
 #include "swage/report.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct VulnerabilityOptions {
@@ -136,3 +137,4 @@ Mesh grid_surface(const GridShape& shape, const CellMap& map, const AxisValues& 
                   std::vector<int>* cells = nullptr);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include "swage/mesh.h"
 #include "swage/report.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// #T × 4 vertex indices from 0. Seen from the fourth corner the others run counter-clockwise: det(b - a, c - a, d - a)
@@ -55,3 +56,4 @@ void write_tetrahedra(const std::filesystem::path& path, const PositionsRef& pos
                       const TetrahedraRef& tetrahedra);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include "swage/protective_grid.h"
 #include "swage/tape.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// Throws InvalidInput where an argument of a step has other rows than the step's rest shape. Every step asks this of
@@ -265,3 +266,4 @@ class CarryStep {
 };
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 
 #include "swage/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// To the nearest of a few directions, those that a simple style's faces have.
@@ -68,3 +69,4 @@ Mesh bipyramid(int sides);
 Mesh rounded_cube(double radius = 0.3, int cells = 20);
 
 }  // namespace swage
+#pragma GCC visibility pop

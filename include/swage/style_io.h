@@ -7,6 +7,7 @@
 #include "swage/mesh_io.h"
 #include "swage/style.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// A picture whose colours are directions: red, green and blue are x, y and z, dark -1 and full 1.
@@ -74,3 +75,4 @@ GivenNormals unbaked(const Mesh& mesh, const TextureCoordinates& texture, const 
                      const NormalMapOptions& options = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 #include "swage/mesh.h"
 #include "swage/style.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct StyleMeasures {
@@ -24,3 +25,4 @@ struct StyleMeasures {
 StyleMeasures style_measures(const PositionsRef& positions, const TrianglesRef& triangles, const GivenNormals& targets);
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -12,6 +12,7 @@
 #include "swage/report.h"
 #include "swage/style.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// What a shape resists with (paper section 4.1).
@@ -107,3 +108,4 @@ StylizeResult stylize(const PositionsRef& positions, const TrianglesRef& triangl
                       const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

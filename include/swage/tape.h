@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// Of arguments a and, where there are two, b. Where a derivative does not exist, that of one side is taken, or 0.
@@ -125,3 +126,4 @@ inline TapeSlopes slopes_of(TapeOp op, double a, double b, double value) {
 }
 
 }  // namespace swage
+#pragma GCC visibility pop

@@ -16,6 +16,7 @@
 #include "swage/report.h"
 #include "swage/tape.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct TemplateParameter {
@@ -100,3 +101,4 @@ Mesh template_mesh(const Template& of, const Eigen::VectorXd& parameters, const 
                    const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

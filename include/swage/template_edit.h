@@ -13,6 +13,7 @@
 #include "swage/template.h"
 #include "swage/template_fit.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct TemplateEditOptions {
@@ -93,3 +94,4 @@ RetargetResult retarget(const Template& of, const PositionsRef& source_positions
                         const RetargetOptions& options = {}, const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

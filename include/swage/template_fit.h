@@ -14,6 +14,7 @@
 #include "swage/report.h"
 #include "swage/template.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 /// Where a mesh lies in the space of its template: x there is scale rotation p + offset.
@@ -65,3 +66,4 @@ TemplateFit fit_template(const Template& of, const PositionsRef& positions, cons
                          const FitOptions& options = {}, const ProgressFn& progress = {});
 
 }  // namespace swage
+#pragma GCC visibility pop

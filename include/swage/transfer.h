@@ -11,6 +11,7 @@
 #include "swage/report.h"
 #include "swage/steps.h"
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 struct TransferOptions {
@@ -54,3 +55,4 @@ Positions carry(const Attachments& attachments, const TrianglesRef& surface_tria
                 const PositionsRef& moved, const Transforms* transforms = nullptr);
 
 }  // namespace swage
+#pragma GCC visibility pop

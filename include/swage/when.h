@@ -1,6 +1,7 @@
 // Whether to do something that not every mesh needs.
 #pragma once
 
+#pragma GCC visibility push(default)
 namespace swage {
 
 enum class When {
@@ -13,3 +14,4 @@ enum class When {
 const char* to_string(When when);
 
 }  // namespace swage
+#pragma GCC visibility pop

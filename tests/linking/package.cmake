@@ -1,0 +1,32 @@
+# The Debian package, unpacked elsewhere, has what it should and runs; the archive of sources has what is needed to build.
+set(place ${BUILD}/package)
+file(REMOVE_RECURSE ${place})
+file(MAKE_DIRECTORY ${place}/debian ${place}/sources)
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+function(require_files folder)
+  foreach(file IN LISTS ARGN)
+    file(GLOB_RECURSE found ${folder}/${file})
+    if(NOT found)
+      message(FATAL_ERROR "${folder} has no ${file}")
+    endif()
+  endforeach()
+endfunction()
+
+run(${CPACK} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${place})
+file(GLOB package ${place}/swage_*.deb)
+run(dpkg-deb -x ${package} ${place}/debian)
+require_files(${place}/debian/usr bin/swage include/swage/reshape.h swageConfig.cmake libswage.* LICENSE)
+run(${place}/debian/usr/bin/swage demo ${place}/demo)
+
+run(${CPACK} --config ${BUILD}/CPackSourceConfig.cmake -B ${place})
+file(GLOB archive ${place}/*-Source.tar.xz)
+file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${place}/sources)
+file(GLOB root ${place}/sources/*)
+require_files(${root} dev README.md LICENSE CMakeLists.txt tests/CMakeLists.txt kernels/field.cl)
+if(EXISTS ${root}/build OR EXISTS ${root}/.git)
+  message(FATAL_ERROR "${archive} has more than sources")
+endif()
