@@ -66,7 +66,10 @@ ReshapeResult solve(const ReshapeJob& job, const Mesh& mesh, const Gesture& gest
 void write_scaffold(const std::string& path, const ReshapeResult& result) {
   if (path.empty()) return;
   const std::optional<ReshapedScaffold>& scaffold = result.stand_in ? result.stand_in->scaffold : result.scaffold;
-  if (!scaffold) throw Unsolvable("--scaffold-mesh: no scaffold was made: " + result.report.paths.at("components"));
+  if (!scaffold) {
+    throw Unsolvable("--scaffold-mesh: no scaffold was made (components: " + result.report.paths.at("components") +
+                     "); leave the option out");
+  }
   write_tetrahedra(path, scaffold->positions, scaffold->tetrahedra);
 }
 

@@ -26,10 +26,10 @@ struct Traffic {
 class Backend {
  public:
   virtual ~Backend() = default;
-  virtual std::string name() const = 0;    ///< "cpu" or "opencl"
-  virtual std::string device() const = 0;  ///< For people to read.
-  virtual Precision precision() const { return Precision::twice; }
-  virtual Traffic traffic() const { return {}; }
+  virtual std::string name() const = 0;                             ///< "cpu" or "opencl"
+  virtual std::string device() const = 0;                           ///< For people to read.
+  virtual Precision precision() const { return Precision::twice; }  ///< What its steps compute in.
+  virtual Traffic traffic() const { return {}; }                    ///< Of all steps that it made.
 
   virtual std::unique_ptr<RotationStep> rotation(const PairsRest& rest) const = 0;
   virtual std::unique_ptr<SimilarityStep> similarity(const PairsRest& rest) const = 0;

@@ -43,9 +43,9 @@ struct FaceChanges {
 struct RoundPart {
   bool is_sphere = false;
   int first_triangle = 0;  ///< The lowest of its triangles.
-  int triangles = 0;
-  double area = 0;    ///< At rest, mesh units squared.
-  double radius = 0;  ///< At rest, mesh units; the mean one.
+  int triangles = 0;       ///< How many it has.
+  double area = 0;         ///< At rest, mesh units squared.
+  double radius = 0;       ///< At rest, mesh units; the mean one.
   /// Out of round: root mean square, in mean radii, of what its vertices' distances from the centre or axis that fit
   /// best differ from a constant (sphere) or from one whose square is quadratic along the axis.
   double before = 0, after = 0;
@@ -53,7 +53,7 @@ struct RoundPart {
 
 struct Comparison {
   Spread turn, uneven, shear;  ///< FaceChanges'.
-  Spread size;                 ///< Of |FaceChanges::size|.
+  Spread size;                 ///< Of the magnitude of FaceChanges::size.
   Spread slippage_loss;
   double slippage_measured = 0;                        ///< The part of the area where it could be, [0, 1].
   double area_before = 0, area_after = 0;              ///< Mesh units squared.

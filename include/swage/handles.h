@@ -45,14 +45,14 @@ std::vector<std::vector<int>> read_straight_chains(const std::filesystem::path& 
 /// visits a vertex twice in a row, and UnwritableFile.
 void write_straight_chains(const std::filesystem::path& path, const std::vector<std::vector<int>>& chains);
 
-/// A set of vertices described in words:
-///   12,40-52           vertices and ranges of vertices
-///   @file              vertex indices in a file, separated by white space or commas
-///   box:x0,y0,z0,x1,y1,z1   inside a box, mesh units
-///   x<1.2  z>=90%      half space; in percent of the bounding box along that axis
-///   component:N        the N-th connected component, from 0, in the order of their first vertices
-///   group:NAME         an OBJ group
-/// joined by & (and).
+/// A set of vertices described in words, one of these or several joined by & (and):
+/// - `12,40-52`: vertices and ranges of vertices
+/// - `@file`: vertex indices in a file, separated by white space or commas
+/// - `box:x0,y0,z0,x1,y1,z1`: inside a box, mesh units
+/// - `x<1.2`, `z>=90%`: half space; in percent of the bounding box along that axis
+/// - `component:N`: the N-th connected component,
+///   from 0, in the order of their first vertices
+/// - `group:NAME`: an OBJ group
 class Selection {
  public:
   /// Throws InvalidInput, quoting the part that is not understood.
@@ -62,7 +62,7 @@ class Selection {
   Selection& operator=(Selection&&) noexcept;
 
   /// The vertices selected, ascending. Throws InvalidInput where a vertex, component or group does not exist or
-  /// nothing is selected, and UnreadableFile for a bad @file.
+  /// nothing is selected, and UnreadableFile for a bad `@file`.
   std::vector<int> vertices(const MeshFile& file) const;
 
   /// Where only a box and half spaces are joined, what of the mesh's bounding box they have in common; it may hold no

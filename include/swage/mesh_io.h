@@ -29,7 +29,7 @@ struct MeshFile {
   std::string skipped_face;  ///< Place of the first face with fewer than three vertices, as "line 5"; empty for none.
   std::vector<std::string> warnings;  ///< What was skipped or mended, with its line.
   std::filesystem::path path;
-  std::shared_ptr<const MeshSource> source;
+  std::shared_ptr<const MeshSource> source;  ///< What write_mesh() writes back into.
 };
 
 /// Reads OBJ, PLY (ascii, binary of both orders), STL (ascii, binary) or OFF (with its colour and normal variants).

@@ -33,8 +33,8 @@ struct GridShape {
   Eigen::RowVector3d corner;  ///< The lowest, in mesh units.
   Eigen::RowVector3d size;    ///< At least 0.
 
-  Extents vertices() const { return {{cells[0] + 1, cells[1] + 1, cells[2] + 1}}; }
-  bool extends(int axis) const { return size[axis] > 0; }
+  Extents vertices() const { return {{cells[0] + 1, cells[1] + 1, cells[2] + 1}}; }  ///< Of the grid.
+  bool extends(int axis) const { return size[axis] > 0; }  ///< Whether the box is not flat there.
 };
 
 /// What is to be protected.

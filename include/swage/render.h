@@ -31,10 +31,10 @@ struct View {
 
 struct Panel {
   Mesh mesh;
-  std::string title;  ///< UTF-8, above it.
-  std::vector<HandleMark> handles;
-  Eigen::VectorXd face_values;  ///< #T, as colours of HeatMap, NaN in grey; empty for a plain surface.
-  std::string caption;          ///< Smaller, below the title.
+  std::string title;                ///< UTF-8, above it.
+  std::vector<HandleMark> handles;  ///< As handle_marks() gives them, or any.
+  Eigen::VectorXd face_values;      ///< #T, as colours of HeatMap, NaN in grey; empty for a plain surface.
+  std::string caption;              ///< Smaller, below the title.
 };
 
 /// What the colours of Panel::face_values mean: pale at `low`, dark at `high`, evenly so to the eye between, and also

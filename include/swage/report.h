@@ -55,7 +55,7 @@ struct Report {
   std::map<std::string, double> seconds;     ///< Wall time by stage; the whole solve and the preparation before.
   std::map<std::string, std::size_t> bytes;  ///< Memory by part, after the last pass; the largest parts.
   std::map<std::string, std::string> paths;  ///< Of several ways to do something the one taken, and why.
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;         ///< What whoever uses the result should know, a sentence each.
 };
 
 }  // namespace swage

@@ -105,8 +105,8 @@ class Resize {
   /// before. Returns false where `progress` cancelled.
   bool prepare(const ProgressFn& progress = {});
 
-  const GridShape& shape() const;
-  const Vulnerability& vulnerability();
+  const GridShape& shape() const;        ///< Of the protective grid.
+  const Vulnerability& vulnerability();  ///< Of the triangles, as found.
   /// As it counts: as found, with what was laid over it and what vulnerable cells then enclose, such as a dial's rim
   /// its middle.
   const CellMap& map();

@@ -27,7 +27,7 @@ struct TemplateEditOptions {
 };
 
 struct TemplateEditResult {
-  Positions positions;
+  Positions positions;  ///< #V × 3, mesh units, the input's order.
   double residual = 0;  ///< Mean over vertices of |f'(v') - f(v)| / |grad f'|, as a part of D.
   double largest = 0;   ///< The largest, likewise.
   int flipped = 0;      ///< Triangles whose normal turned against that of the template's map; none that were flat.

@@ -23,8 +23,8 @@ struct TemplatePose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::RowVector3d offset = Eigen::RowVector3d::Zero();
 
-  Positions into(const PositionsRef& positions) const;
-  Positions back(const PositionsRef& positions) const;
+  Positions into(const PositionsRef& positions) const;  ///< Of the mesh's space in the template's.
+  Positions back(const PositionsRef& positions) const;  ///< The other way.
 };
 
 struct FitOptions {

@@ -1,5 +1,6 @@
-# Installs into an empty folder, builds the consumer against it, and reshapes the demo's chair with it.
+# Installs into an empty folder, and builds the pages' programs against it.
 set(place ${BUILD}/consumer)
+set(source ${CMAKE_CURRENT_LIST_DIR}/../..)
 file(REMOVE_RECURSE ${place})
 
 function(run)
@@ -13,9 +14,8 @@ foreach(helper IN LISTS helpers)
     message(FATAL_ERROR "${helper} is not installed")
   endif()
 endforeach()
+file(GLOB pages ${source}/README.md ${source}/host/*/README.md)
+run(${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/pages.py ${place}/pages ${place}/installed/bin ${pages})
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${place}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${place}/installed)
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${place}/installed -DPAGES=${place}/pages)
 run(${CMAKE_COMMAND} --build ${place}/build)
-run(${place}/installed/bin/swage demo ${place}/demo)
-run(${place}/build/readme_example ${place}/demo/rest.obj ${place}/taller.obj)
-run(${PROGRAM} info ${place}/taller.obj)

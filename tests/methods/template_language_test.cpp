@@ -150,6 +150,13 @@ TEST(Template, NamesItsParameters) {
   EXPECT_THROW(shipped_template("spaceship"), InvalidInput);
 }
 
+TEST(Template, AVaseThatIsNotHollowIsSolidToItsAxis) {
+  const Template vase = shipped_template("vase");
+  Eigen::VectorXd parameters = vase.defaults();
+  parameters[vase.parameter("hollow")] = 0;
+  for (const double height : {0.1, 0.5, 0.9}) EXPECT_LT(value_at(vase, {0, height, 0}, parameters), -0.09) << height;
+}
+
 /// Of each node type the field at a point, in closed form.
 TEST(TemplateNodes, HaveTheirFields) {
   const auto at = [](const std::string& node, double x, double y, double z) {
