@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "by_place.h"
 #include "measures.h"
 #include "nearest.h"
 #include "sets.h"
@@ -55,6 +56,14 @@ std::vector<std::pair<int, double>> point_less_foot(const Mesh& mesh, int v, con
   return factors;
 }
 
+/// Of many every few, in their order.
+std::vector<int> some_of(const std::vector<int>& all) {
+  const size_t stride = (all.size() + kMostOfTwo - 1) / kMostOfTwo;
+  std::vector<int> some;
+  for (size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
+  return some;
+}
+
 /// Contacts by the two components that they join, no more of each two than tell enough.
 class ContactList {
  public:
@@ -68,14 +77,22 @@ class ContactList {
     std::vector<Tie> result;
     for (const auto& [two, all] : of_two_) {
       sets.join(two.first, two.second);
-      const size_t stride = (all.size() + kMostOfTwo - 1) / kMostOfTwo;
-      for (size_t i = 0; i < all.size(); i += stride)
-        result.push_back(tie(parts_.mesh, all[i], scale_, kContactStiffness));
+      Positions points(static_cast<Eigen::Index>(all.size()), 3);
+      for (size_t i = 0; i < all.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = point(all[i]);
+      for (const int i : some_of(by_place(points))) {
+        result.push_back(tie(parts_.mesh, all[static_cast<size_t>(i)], scale_, kContactStiffness));
+      }
     }
     return result;
   }
 
  private:
+  Eigen::RowVector3d point(const std::vector<std::pair<int, double>>& factors) const {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (const auto& [v, factor] : factors) sum += std::max(factor, 0.0) * parts_.mesh.positions.row(v);
+    return sum;
+  }
+
   const Parts& parts_;
   double scale_;
   std::map<std::pair<int, int>, std::vector<std::vector<std::pair<int, double>>>> of_two_;
@@ -153,16 +170,15 @@ void link_once(const Parts& parts, double mean_length, const Poll& poll, Sets& s
     least = std::min(least, feet[v].distance);
   }
   std::map<int, std::vector<int>> facing;
-  for (size_t v = 0; v < feet.size(); ++v) {
-    if (feet[v].distance <= 1.5 * nearest[group_of(v)] + mean_length)
-      facing[group_of(v)].push_back(static_cast<int>(v));
+  for (const int v : by_place(parts.mesh.positions)) {
+    const auto at = static_cast<size_t>(v);
+    if (feet[at].distance <= 1.5 * nearest[group_of(at)] + mean_length) facing[group_of(at)].push_back(v);
   }
   for (const auto& [group, vertices] : facing) {
-    const size_t stride = (vertices.size() + kMostOfTwo - 1) / kMostOfTwo;
-    for (size_t i = 0; i < vertices.size(); i += stride) {
-      const Foot& foot = feet[static_cast<size_t>(vertices[i])];
+    for (const int v : some_of(vertices)) {
+      const Foot& foot = feet[static_cast<size_t>(v)];
       const double gap = std::max(foot.distance, 0.1 * mean_length);
-      links.ties.push_back(tie(parts.mesh, point_less_foot(parts.mesh, vertices[i], foot), 1 / gap, kLinkWeight));
+      links.ties.push_back(tie(parts.mesh, point_less_foot(parts.mesh, v, foot), 1 / gap, kLinkWeight));
     }
     for (const int v : vertices) sets.join(group, parts.of_triangle(feet[static_cast<size_t>(v)].triangle));
   }
