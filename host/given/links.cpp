@@ -17,7 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTouch = 1e-4;  // Of the unit box: how near is together.
+constexpr double kTouch = 1e-4;     // Of the unit box: how near is together.
+constexpr double kRounding = 1e-7;  // Of an edge or a triangle: rounding does not decide whether they cross.
 // A contact is as stiff as that many edges of mean length.
 constexpr double kContactStiffness = 10;
 constexpr double kLinkWeight = 1e-2;  // The paper's w_edge.
@@ -108,13 +109,15 @@ void find_touches(const Parts& parts, const Poll& poll, ContactList& contacts) {
   }
 }
 
-/// Where a segment from a to b crosses a triangle: how far along, and where in it.
+/// Where a segment from a to b crosses a triangle, its ends and sides counted to: how far along, and where in it. None
+/// within its plane.
 std::optional<std::pair<double, Vector3d>> crossing(const Vector3d& a, const Vector3d& b,
                                                     const std::array<Vector3d, 3>& corners) {
   const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double from = (a - corners[0]).dot(normal), to = (b - corners[0]).dot(normal);
-  if (from * to > 0 || from == to) return std::nullopt;
+  if (std::abs(from - to) <= kRounding * (b - a).norm() * normal.norm()) return std::nullopt;
   const double along = from / (from - to);
+  if (along < -kRounding || along > 1 + kRounding) return std::nullopt;
   const Vector3d at = a + along * (b - a);
   Vector3d barycentric;
   for (size_t k = 0; k < 3; ++k) {
@@ -122,7 +125,7 @@ std::optional<std::pair<double, Vector3d>> crossing(const Vector3d& a, const Vec
     barycentric[static_cast<Eigen::Index>(k)] =
         (corners[(k + 2) % 3] - corner).cross(at - corner).dot(normal) / normal.squaredNorm();
   }
-  if (!(barycentric.array() >= 0).all()) return std::nullopt;
+  if (!(barycentric.array() >= -kRounding).all()) return std::nullopt;
   return std::pair(along, barycentric);
 }
 
@@ -132,15 +135,22 @@ void find_crossings(const Parts& parts, const Edges& edges, const Poll& poll, Co
     if (e % 1024 == 0) ask(poll);
     const int v = edges.vertices(e, 0), w = edges.vertices(e, 1), own = parts.of_vertex[static_cast<size_t>(v)];
     const Vector3d a = parts.point(v), b = parts.point(w);
+    std::vector<std::pair<int, double>> seen;  // A side is two triangles'.
     parts.tree.near({a.cwiseMin(b), a.cwiseMax(b)}, [&](int t) {
       if (parts.of_triangle(t) == own) return;
       const Eigen::RowVector3i corners = mesh.triangles.row(t);
       const auto found = crossing(a, b, {parts.point(corners[0]), parts.point(corners[1]), parts.point(corners[2])});
       if (!found) return;
       const auto& [along, barycentric] = *found;
+      const int other = parts.of_triangle(t);
+      const auto is_same = [&, place = along](const auto& one) {
+        return one.first == other && std::abs(one.second - place) <= 2 * kRounding;
+      };
+      if (std::any_of(seen.begin(), seen.end(), is_same)) return;
+      seen.emplace_back(other, along);
       std::vector<std::pair<int, double>> factors{{v, 1 - along}, {w, along}};
       for (int k = 0; k < 3; ++k) factors.emplace_back(corners[k], -barycentric[k]);
-      contacts.add(own, parts.of_triangle(t), std::move(factors));
+      contacts.add(own, other, std::move(factors));
     });
   }
 }

@@ -161,6 +161,7 @@ std::vector<Case> made() {
   const Mesh part = cylinder(0.4, 0.8, 12, 4), ring = transformed(askew(torus(1, 0.4, 16, 8)), 0.3, {0, 0, 0});
   const Mesh apart =
       transformed(joined(torus(1, 0.4, 16, 8), transformed(box({1, 1, 1}, 3), 1, {2, 0, 0})), 0.2, {0, 0, 0});
+  const Mesh block = box({0.5, 0.5, 0.5}, 4);
   ReshapeOptions steady, published, alup, chains;
   published.solver = ReshapeSolver::published;
   alup.method = ReshapeMethod::alup;
@@ -186,6 +187,7 @@ std::vector<Case> made() {
       reshape_case("awkward", transformed(awkward(), 0.5, {0, 0, 0}), steady),
       reshape_case("loose_vertex", with_loose(part), steady),
       deform_case("many_contacts", joined(brick(9), transformed(brick(9), 1, {0.1, 0.6, 0.05})), DeformMethod::poisson),
+      deform_case("crossing", joined(block, transformed(block, 1, {0.215, 0.3, 0.085})), DeformMethod::poisson),
       polycube_case(),
   };
   // Points on a sphere, as of a torus: the tetrahedra between are others once the points have fewer digits.
