@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "by_place.h"
 #include "distinct.h"
 #include "measures.h"
 #include "remesher.h"
@@ -39,7 +40,8 @@ void check_options(const RemeshOptions& options) {
 /// Side of the equilateral triangle.
 double side_of(double area) { return std::sqrt(4 / std::sqrt(3) * area); }
 
-/// The mesh welded and enlarged by a power of two to a size of about 1, which no coordinate's digits see.
+/// The mesh welded and enlarged by a power of two to a size of about 1, which no coordinate's digits see; in an order
+/// and without last digits that would decide what edges are split and flipped first.
 struct Scaled {
   Mesh mesh;
   double scale;
@@ -54,7 +56,9 @@ Scaled scaled(const PositionsRef& positions, const TrianglesRef& triangles) {
   }
   const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   result.scale = std::ldexp(1, std::min(-std::ilogb(extent), 1000));
-  points *= result.scale;
+  points = rounded(points * result.scale);
+  result.mesh = in_order(result.mesh, by_place(result.mesh));
+  begin_with_first(result.mesh.triangles);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "by_place.h"
 #include "distinct.h"
 #include "intersections.h"
 #include "swage/error.h"
@@ -40,6 +41,24 @@ Positions box_around(const Positions& points, double enlargement) {
   return corners;
 }
 
+/// In an order and without last digits that would decide what tetrahedra there are where more than four points lie on a
+/// sphere.
+void put_in_order(Distinct& surface, Positions& points) {
+  const Mesh given{rounded(points), surface.triangles};
+  const Numbering numbering = by_place(given);
+  Mesh mesh = in_order(given, numbering);
+  begin_with_first(mesh.triangles);
+  points = std::move(mesh.positions);
+  surface.triangles = std::move(mesh.triangles);
+  const auto put = [](std::vector<int>& numbers, const std::vector<int>& order) {
+    std::vector<int> result;
+    for (const int i : order) result.push_back(numbers[static_cast<size_t>(i)]);
+    numbers = std::move(result);
+  };
+  put(surface.vertices, numbering.vertices);
+  put(surface.originals, numbering.triangles);
+}
+
 /// The surface within a box, enlarged by a power of two to a size of about 1, which no coordinate's digits see.
 struct Task {
   Distinct surface;
@@ -50,14 +69,16 @@ struct Task {
 Task make_task(const Positions& positions, const Triangles& triangles, double enlargement) {
   Task task{distinct(positions, triangles), {}, 1};
   if (task.surface.triangles.rows() == 0) throw InvalidInput("scaffold: triangles: none has an area");
-  const Positions points = positions(task.surface.vertices, Eigen::all);
+  Positions points = positions(task.surface.vertices, Eigen::all);
   const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   task.scale = std::ldexp(1, std::min(-std::ilogb(extent), 1000));
 
+  points *= task.scale;
+  put_in_order(task.surface, points);
   Complex& complex = task.complex;
   const auto count = static_cast<int>(points.rows());
   complex.points.resize(count + kBoxCorners, 3);
-  complex.points << task.scale * points, task.scale * box_around(points, enlargement);
+  complex.points << points, box_around(points, enlargement);
   complex.triangles = task.surface.triangles;
   complex.quadrilaterals.resize(6, 4);
   complex.quadrilaterals << 0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5;
@@ -104,10 +125,12 @@ void leave_out(Task& task, const std::vector<int>& crossing, std::vector<int>& l
 
 [[noreturn]] void refuse_crossing(const Task& task, const std::vector<int>& crossing) {
   constexpr size_t kNamed = 10;
+  std::vector<int> triangles;
+  for (const int t : crossing) triangles.push_back(task.surface.originals.at(static_cast<size_t>(t)));
+  std::sort(triangles.begin(), triangles.end());
   std::string text = "scaffold: triangles ";
-  for (size_t i = 0; i < std::min(kNamed, crossing.size()); ++i) {
-    const int triangle = task.surface.originals.at(static_cast<size_t>(crossing[i]));
-    text += (i > 0 ? ", " : "") + std::to_string(triangle);
+  for (size_t i = 0; i < std::min(kNamed, triangles.size()); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(triangles[i]);
   }
   if (crossing.size() > kNamed) text += " and " + std::to_string(crossing.size() - kNamed) + " more";
   throw Unsolvable(text + " cross or overlap others");

@@ -12,6 +12,8 @@
 namespace swage {
 namespace {
 
+constexpr double kSamePlace = 1e-6;  // Of the box. Files keep six digits.
+
 /// Numbers of what stands in `order`, and of each given where it went.
 void put_in_order(const std::vector<int>& order, std::vector<int>& numbers, std::vector<int>& places) {
   const std::vector<int> place = inverse(order);
@@ -47,14 +49,18 @@ Given::Given(Mesh mesh, Surface& surface, bool in_order)
 void Given::list_loose(const Mesh& surface) {
   if (std::find(vertex_of_.begin(), vertex_of_.end(), -1) == vertex_of_.end()) return;
   const TriangleTree tree(surface.positions, surface.triangles);
+  const double tolerance = kSamePlace * unit_box(surface.positions).extent;
   for (int v = 0; v < static_cast<int>(vertex_of_.size()); ++v) {
     if (!is_loose(v)) continue;
     const Eigen::RowVector3d point = mesh_.positions.row(v);
-    const Foot foot = tree.nearest(point.transpose());
-    const Eigen::RowVector3i corners = surface.triangles.row(foot.triangle);
-    Loose loose{v, foot.triangle, {corners[0], corners[1], corners[2]}, foot.barycentric, point};
-    for (int k = 0; k < 3; ++k) loose.offset -= foot.barycentric[k] * surface.positions.row(corners[k]);
-    loose_.push_back(loose);
+    Loose loose{v, {}};
+    for (const Foot& foot : tree.all_nearest(point.transpose(), tolerance)) {
+      const Eigen::RowVector3i corners = surface.triangles.row(foot.triangle);
+      LooseFoot& at = loose.feet.emplace_back(foot.triangle, std::array{corners[0], corners[1], corners[2]},
+                                              foot.barycentric, point);
+      for (int k = 0; k < 3; ++k) at.offset -= foot.barycentric[k] * surface.positions.row(corners[k]);
+    }
+    loose_.push_back(std::move(loose));
   }
 }
 
@@ -99,7 +105,10 @@ std::vector<Hold> Given::at_feet(const std::vector<Hold>& holds) const {
     const auto loose =
         std::find_if(loose_.begin(), loose_.end(), [&](const Loose& l) { return l.vertex == hold.vertex(); });
     if (loose == loose_.end()) continue;
-    result.push_back({loose->corners, loose->barycentric, hold.target - loose->offset, hold.share});
+    const double share = hold.share / static_cast<double>(loose->feet.size());
+    for (const LooseFoot& foot : loose->feet) {
+      result.push_back({foot.corners, foot.barycentric, hold.target - foot.offset, share});
+    }
   }
   return result;
 }
@@ -115,10 +124,12 @@ Positions Given::back(const Positions& positions, const Transforms& transforms) 
     given.row(v) = positions.row(vertex_of_[static_cast<size_t>(v)]) + aside(v);
   }
   for (const Loose& loose : loose_) {
-    Eigen::RowVector3d point = (matrix(transforms, loose.triangle) * loose.offset.transpose()).transpose();
-    for (size_t k = 0; k < 3; ++k)
-      point += loose.barycentric[static_cast<Eigen::Index>(k)] * positions.row(loose.corners[k]);
-    given.row(loose.vertex) = point;
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (const LooseFoot& foot : loose.feet) {
+      sum += (matrix(transforms, foot.triangle) * foot.offset.transpose()).transpose();
+      for (int k = 0; k < 3; ++k) sum += foot.barycentric[k] * positions.row(foot.corners[static_cast<size_t>(k)]);
+    }
+    given.row(loose.vertex) = sum / static_cast<double>(loose.feet.size());
   }
   return given;
 }
@@ -151,7 +162,6 @@ void Given::place_loose(const Gesture& gesture, Positions& positions) const {
 }
 
 Surface surface_given(const Mesh& mesh, const char* caller) {
-  constexpr double kSamePlace = 1e-6;  // Of the box. Files keep six digits.
   Surface surface = surface_of(mesh, kSamePlace * unit_box(mesh.positions).extent);
   const Positions areas = area_vectors(surface.mesh.positions, surface.mesh.triangles);
   if (areas.rows() > 0 && areas.squaredNorm() > 0) return surface;

@@ -45,11 +45,15 @@ class Given {
   bool is_loose(int vertex) const { return vertex_of_[static_cast<size_t>(vertex)] < 0; }
 
  private:
-  struct Loose {
-    int vertex, triangle;
+  struct LooseFoot {
+    int triangle;
     std::array<int, 3> corners;   ///< Of the triangle, in the surface.
     Eigen::Vector3d barycentric;  ///< Of its nearest point.
     Eigen::RowVector3d offset;    ///< From there.
+  };
+  struct Loose {
+    int vertex;
+    std::vector<LooseFoot> feet;  ///< On all triangles that are nearest.
   };
 
   std::vector<Hold> at_feet(const std::vector<Hold>& holds) const;
@@ -61,7 +65,7 @@ class Given {
   std::vector<int> vertices_, triangles_;     ///< Of each of the surface the number as given.
   std::vector<int> vertex_of_, triangle_of_;  ///< Of each given the number in the surface, or -1; of triangles that are
                                               ///< not there one beside them, or -1.
-  std::vector<Loose> loose_;                  ///< Vertices of no triangle, by the nearest point of the surface.
+  std::vector<Loose> loose_;                  ///< Vertices of no triangle.
 };
 
 /// The surface of any list of triangles. Vertices nearer than what the digits of files keep are one. Throws

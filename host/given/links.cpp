@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "by_place.h"
 #include "measures.h"
 #include "nearest.h"
 #include "sets.h"
@@ -16,7 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTouch = 1e-4;  // Of the unit box: how near is together.
+constexpr double kTouch = 1e-4;     // Of the unit box: how near is together.
+constexpr double kRounding = 1e-7;  // Of an edge or a triangle: rounding does not decide whether they cross.
 // A contact is as stiff as that many edges of mean length.
 constexpr double kContactStiffness = 10;
 constexpr double kLinkWeight = 1e-2;  // The paper's w_edge.
@@ -55,6 +57,14 @@ std::vector<std::pair<int, double>> point_less_foot(const Mesh& mesh, int v, con
   return factors;
 }
 
+/// Of many every few, in their order.
+std::vector<int> some_of(const std::vector<int>& all) {
+  const size_t stride = (all.size() + kMostOfTwo - 1) / kMostOfTwo;
+  std::vector<int> some;
+  for (size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
+  return some;
+}
+
 /// Contacts by the two components that they join, no more of each two than tell enough.
 class ContactList {
  public:
@@ -68,14 +78,22 @@ class ContactList {
     std::vector<Tie> result;
     for (const auto& [two, all] : of_two_) {
       sets.join(two.first, two.second);
-      const size_t stride = (all.size() + kMostOfTwo - 1) / kMostOfTwo;
-      for (size_t i = 0; i < all.size(); i += stride)
-        result.push_back(tie(parts_.mesh, all[i], scale_, kContactStiffness));
+      Positions points(static_cast<Eigen::Index>(all.size()), 3);
+      for (size_t i = 0; i < all.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = point(all[i]);
+      for (const int i : some_of(by_place(points))) {
+        result.push_back(tie(parts_.mesh, all[static_cast<size_t>(i)], scale_, kContactStiffness));
+      }
     }
     return result;
   }
 
  private:
+  Eigen::RowVector3d point(const std::vector<std::pair<int, double>>& factors) const {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (const auto& [v, factor] : factors) sum += std::max(factor, 0.0) * parts_.mesh.positions.row(v);
+    return sum;
+  }
+
   const Parts& parts_;
   double scale_;
   std::map<std::pair<int, int>, std::vector<std::vector<std::pair<int, double>>>> of_two_;
@@ -91,13 +109,15 @@ void find_touches(const Parts& parts, const Poll& poll, ContactList& contacts) {
   }
 }
 
-/// Where a segment from a to b crosses a triangle: how far along, and where in it.
+/// Where a segment from a to b crosses a triangle, its ends and sides counted to: how far along, and where in it. None
+/// within its plane.
 std::optional<std::pair<double, Vector3d>> crossing(const Vector3d& a, const Vector3d& b,
                                                     const std::array<Vector3d, 3>& corners) {
   const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double from = (a - corners[0]).dot(normal), to = (b - corners[0]).dot(normal);
-  if (from * to > 0 || from == to) return std::nullopt;
+  if (std::abs(from - to) <= kRounding * (b - a).norm() * normal.norm()) return std::nullopt;
   const double along = from / (from - to);
+  if (along < -kRounding || along > 1 + kRounding) return std::nullopt;
   const Vector3d at = a + along * (b - a);
   Vector3d barycentric;
   for (size_t k = 0; k < 3; ++k) {
@@ -105,7 +125,7 @@ std::optional<std::pair<double, Vector3d>> crossing(const Vector3d& a, const Vec
     barycentric[static_cast<Eigen::Index>(k)] =
         (corners[(k + 2) % 3] - corner).cross(at - corner).dot(normal) / normal.squaredNorm();
   }
-  if (!(barycentric.array() >= 0).all()) return std::nullopt;
+  if (!(barycentric.array() >= -kRounding).all()) return std::nullopt;
   return std::pair(along, barycentric);
 }
 
@@ -115,15 +135,22 @@ void find_crossings(const Parts& parts, const Edges& edges, const Poll& poll, Co
     if (e % 1024 == 0) ask(poll);
     const int v = edges.vertices(e, 0), w = edges.vertices(e, 1), own = parts.of_vertex[static_cast<size_t>(v)];
     const Vector3d a = parts.point(v), b = parts.point(w);
+    std::vector<std::pair<int, double>> seen;  // A side is two triangles'.
     parts.tree.near({a.cwiseMin(b), a.cwiseMax(b)}, [&](int t) {
       if (parts.of_triangle(t) == own) return;
       const Eigen::RowVector3i corners = mesh.triangles.row(t);
       const auto found = crossing(a, b, {parts.point(corners[0]), parts.point(corners[1]), parts.point(corners[2])});
       if (!found) return;
       const auto& [along, barycentric] = *found;
+      const int other = parts.of_triangle(t);
+      const auto is_same = [&, place = along](const auto& one) {
+        return one.first == other && std::abs(one.second - place) <= 2 * kRounding;
+      };
+      if (std::any_of(seen.begin(), seen.end(), is_same)) return;
+      seen.emplace_back(other, along);
       std::vector<std::pair<int, double>> factors{{v, 1 - along}, {w, along}};
       for (int k = 0; k < 3; ++k) factors.emplace_back(corners[k], -barycentric[k]);
-      contacts.add(own, parts.of_triangle(t), std::move(factors));
+      contacts.add(own, other, std::move(factors));
     });
   }
 }
@@ -153,16 +180,15 @@ void link_once(const Parts& parts, double mean_length, const Poll& poll, Sets& s
     least = std::min(least, feet[v].distance);
   }
   std::map<int, std::vector<int>> facing;
-  for (size_t v = 0; v < feet.size(); ++v) {
-    if (feet[v].distance <= 1.5 * nearest[group_of(v)] + mean_length)
-      facing[group_of(v)].push_back(static_cast<int>(v));
+  for (const int v : by_place(parts.mesh.positions)) {
+    const auto at = static_cast<size_t>(v);
+    if (feet[at].distance <= 1.5 * nearest[group_of(at)] + mean_length) facing[group_of(at)].push_back(v);
   }
   for (const auto& [group, vertices] : facing) {
-    const size_t stride = (vertices.size() + kMostOfTwo - 1) / kMostOfTwo;
-    for (size_t i = 0; i < vertices.size(); i += stride) {
-      const Foot& foot = feet[static_cast<size_t>(vertices[i])];
+    for (const int v : some_of(vertices)) {
+      const Foot& foot = feet[static_cast<size_t>(v)];
       const double gap = std::max(foot.distance, 0.1 * mean_length);
-      links.ties.push_back(tie(parts.mesh, point_less_foot(parts.mesh, vertices[i], foot), 1 / gap, kLinkWeight));
+      links.ties.push_back(tie(parts.mesh, point_less_foot(parts.mesh, v, foot), 1 / gap, kLinkWeight));
     }
     for (const int v : vertices) sets.join(group, parts.of_triangle(feet[static_cast<size_t>(v)].triangle));
   }

@@ -59,13 +59,18 @@ Foot nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b
 TriangleTree::TriangleTree(const Positions& positions, const Triangles& triangles)
     : positions_(positions), triangles_(triangles), boxes_(boxes_of(positions, triangles)), tree_(boxes_) {}
 
+Foot TriangleTree::foot_on(int triangle, const Vector3d& point) const {
+  const auto corner = [&](int k) -> Vector3d { return positions_.row(triangles_(triangle, k)); };
+  Foot foot = nearest_on_triangle(point, corner(0), corner(1), corner(2));
+  foot.triangle = triangle;
+  return foot;
+}
+
 Foot TriangleTree::nearest(const Vector3d& point, double most, const std::function<bool(int)>& counts) const {
   Foot best{-1, Vector3d::Zero(), most};
   tree_.near(point, most, [&](int t) {
     if (!counts(t)) return best.distance;
-    Foot foot = nearest_on_triangle(point, positions_.row(triangles_(t, 0)), positions_.row(triangles_(t, 1)),
-                                    positions_.row(triangles_(t, 2)));
-    foot.triangle = t;
+    const Foot foot = foot_on(t, point);
     const bool is_first = best.triangle < 0 || t < best.triangle;
     if (foot.distance < best.distance || (foot.distance == best.distance && is_first)) best = foot;
     return best.distance;
@@ -75,6 +80,19 @@ Foot TriangleTree::nearest(const Vector3d& point, double most, const std::functi
 
 Foot TriangleTree::nearest(const Vector3d& point) const {
   return nearest(point, std::numeric_limits<double>::infinity(), [](int) { return true; });
+}
+
+std::vector<Foot> TriangleTree::all_nearest(const Vector3d& point, double tolerance) const {
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<Foot> feet;
+  tree_.near(point, least, [&](int t) {
+    feet.push_back(foot_on(t, point));
+    least = std::min(least, feet.back().distance);
+    return least + tolerance;
+  });
+  std::erase_if(feet, [&](const Foot& foot) { return foot.distance > least + tolerance; });
+  std::sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) { return a.triangle < b.triangle; });
+  return feet;
 }
 
 }  // namespace swage

@@ -31,10 +31,15 @@ class TriangleTree {
   Foot nearest(const Eigen::Vector3d& point, double most, const std::function<bool(int)>& counts) const;
   Foot nearest(const Eigen::Vector3d& point) const;
 
+  /// Of all triangles that are nearest, to a tolerance, ascending.
+  std::vector<Foot> all_nearest(const Eigen::Vector3d& point, double tolerance) const;
+
   /// Calls `found` with each triangle whose box meets `box`.
   void near(const Eigen::AlignedBox3d& box, const std::function<void(int)>& found) const { tree_.overlaps(box, found); }
 
  private:
+  Foot foot_on(int triangle, const Eigen::Vector3d& point) const;
+
   const Positions& positions_;
   const Triangles& triangles_;
   std::vector<Eigen::AlignedBox3d> boxes_;

@@ -34,7 +34,10 @@ Mesh remeshed(const Mesh& given, int triangles, const ProgressFn& progress) {
   }
   RemeshOptions options;
   options.triangles = triangles;
-  return mesh.triangles.rows() == 0 ? mesh : remesh(mesh.positions, mesh.triangles, options, progress);
+  if (mesh.triangles.rows() == 0) return mesh;
+  const UnitBox box = unit_box(mesh.positions);  // Else the mesh's unit would decide by rounding.
+  mesh = remesh(box.into(mesh.positions), mesh.triangles, options, progress);
+  return {box.back(mesh.positions), mesh.triangles};
 }
 
 std::shared_ptr<StandIn> make(const ReshapePlan& plan, const Mesh& given, const ProgressFn& progress) {

@@ -63,6 +63,7 @@ class Boxes {
     const Positions start = positions;
     stylize(positions, first ? kFirstSteps : kSteps, poll);
     if (!first) {
+      restore(plan_, at_rest_, is_held_, positions);  // What is held back goes back to where it started.
       hold_back(plan_, is_fixed_, options_.least_angle, rest_normals_, start, positions);
       relax(plan_, is_fixed_, targets_.find(positions), positions);
     }

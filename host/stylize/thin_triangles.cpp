@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "by_place.h"
+
 namespace swage {
 namespace {
 
@@ -111,12 +113,13 @@ void hold_back(const StylizePlan& plan, const std::vector<char>& is_fixed, doubl
 
 void relax(const StylizePlan& plan, const std::vector<char>& is_fixed, const Positions& targets, Positions& positions) {
   std::vector<char> is_thin(static_cast<size_t>(plan.mesh.triangles.rows()));
+  const std::vector<int> order = by_place(positions);  // Each sees those moved before.
   for (int round = 0; round < kRounds; ++round) {
     for (Index t = 0; t < plan.mesh.triangles.rows(); ++t) {
       is_thin[static_cast<size_t>(t)] = least_angle_of(plan, positions, t) < kThin ? 1 : 0;
     }
     const std::vector<char> is_moved = vertices_of(plan, is_thin);
-    for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+    for (const int v : order) {
       if (is_moved[static_cast<size_t>(v)] == 0 || is_fixed[static_cast<size_t>(v)] != 0) continue;
       const double least = least_around(plan, positions, v, positions.row(v));
       const RowVector3d step = along_targets(plan, targets, v, kPull * to_neighbours(plan, positions, v));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "by_place.h"
 #include "measures.h"
 
 namespace swage {
@@ -28,7 +29,9 @@ class Random {
 
 }  // namespace
 
-Positions surface_samples(const Mesh& mesh, int count, unsigned seed) {
+Positions surface_samples(const Mesh& given, int count, unsigned seed) {
+  Mesh mesh = in_order(given, by_place(given));
+  begin_with_first(mesh.triangles);
   Random random(seed);
   const Eigen::VectorXd areas = area_vectors(mesh.positions, mesh.triangles).rowwise().norm();
   const double each = areas.sum() / count;

@@ -6,7 +6,8 @@
 
 namespace swage {
 
-/// Evenly over the surface: as many on each stretch of area, at random places in their strata.
+/// Evenly over the surface: as many on each stretch of area, at random places in their strata. The same however
+/// the mesh is ordered.
 Positions surface_samples(const Mesh& mesh, int count, unsigned seed);
 
 struct VolumeSamples {

@@ -256,8 +256,8 @@ class CarryStep {
   /// Which: of each triangle of the slice, after those of the one before, ascending. `counts`: of the same slice.
   virtual void list_cells(const GridShape& shape, Slice triangles, const Eigen::VectorXi& counts,
                           Eigen::VectorXi& cells) = 0;
-  /// In parts of a cell's width.
-  virtual double cell_rounding(const GridShape&) const { return 1e-9; }
+  /// In parts of a cell's width: no more than a millionth of the box, and more than rounding does to it far off.
+  virtual double cell_rounding(const GridShape&) const { return 1e-6; }
 
   /// #V × 3: where the trilinear map of its cell takes each vertex; one outside goes as its nearest cell's map,
   /// continued. `grid`: the grid's vertices, #(nx+1)(ny+1)(nz+1) × 3. Along an axis in which the grid has no extent

@@ -109,7 +109,7 @@ double farthest(const Mesh& from, const Mesh& to) {
 void expect_well_shaped(const Mesh& mesh) {
   const ShapeQuality quality = shape_quality(mesh.positions, mesh.triangles);
   EXPECT_GT(quality.low_angle, 25 * kDegree);
-  EXPECT_LT(quality.sharp_area, 0.001);
+  EXPECT_LT(quality.sharp_area, 0.002);
   EXPECT_FALSE(badly_shaped(quality));
 }
 
@@ -144,6 +144,15 @@ TEST_F(Remesh, TwelveTrianglesOfABoxKeepItsCornersAndFaces) {
   for (double along = 0; along <= 3; along += 0.01) {
     EXPECT_LT(distance_to_vertices(mesh, {along, 1, 0.5}), 0.05);
   }
+}
+
+TEST_F(Remesh, IsTheSameOfAnyOrder) {
+  const Mesh mesh = test::cylinder(0.5, 4, 64, 1);
+  Mesh other{mesh.positions.colwise().reverse(), mesh.triangles.colwise().reverse()};
+  other.triangles = (static_cast<int>(mesh.positions.rows()) - 1 - other.triangles.array()).matrix();
+  const Mesh one = remesh(mesh, kCoarse), two = remesh(other, kCoarse);
+  EXPECT_EQ(one.positions, two.positions);
+  EXPECT_EQ(one.triangles, two.triangles);
 }
 
 TEST_F(Remesh, EdgeLengthIsTheOneAskedFor) {

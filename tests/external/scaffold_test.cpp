@@ -202,6 +202,26 @@ TEST_F(ScaffoldOf, SizeAndPlaceDoNotMatter) {
   expect_is_a_scaffold(scaffold(far.positions, far.triangles), far, 1.5);
 }
 
+/// Points of a torus lie on spheres: order and last digits would decide what tetrahedra there are.
+TEST_F(ScaffoldOf, OrderAndLastDigitsDoNotMatter) {
+  const Mesh mesh = test::joined(test::torus(1, 0.4, 16, 8), test::transformed(test::box(), 1, {2, 0, 0}));
+  Mesh other{mesh.positions.colwise().reverse() * (1 + 1e-15), mesh.triangles.colwise().reverse()};
+  const auto last = static_cast<int>(mesh.positions.rows()) - 1;
+  other.triangles = (last - other.triangles.array()).matrix();
+  const auto linked = [&](const Mesh& of, bool reversed) {
+    const Scaffold s = scaffold(of.positions, of.triangles);
+    std::set<std::array<int, 4>> all;
+    for (const auto& t : s.tetrahedra.rowwise()) {
+      std::array<int, 4> corners{t[0], t[1], t[2], t[3]};
+      for (int& v : corners) v = reversed && v <= last ? last - v : v;
+      std::sort(corners.begin(), corners.end());
+      all.insert(corners);
+    }
+    return all;
+  };
+  EXPECT_EQ(linked(mesh, false), linked(other, true));
+}
+
 /// Crossing surfaces too, whose triangles could not all be faces.
 TEST_F(ScaffoldOf, VerticesAlone) {
   const Mesh box = test::box({1, 1, 1}, 3);
