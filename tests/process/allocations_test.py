@@ -1,5 +1,6 @@
-"""Any allocation may fail, and all after it: the program ends with one line that says so, and no file is half. The second
-argument is the library that makes them fail; a third is how many are tried of each command."""
+"""Any allocation may fail, and all after it: the program ends with one line that says so, and no file is half.
+
+The second argument is the library that makes them fail; a third is how many are tried of each command."""
 
 import random
 import sys

@@ -1,4 +1,4 @@
-"""The program, given as the test's first argument, and each of its commands that write, on small meshes of its own making."""
+"""The program, the test's first argument, and each of its commands that write, on small meshes of its own making."""
 
 import json
 import os
@@ -18,9 +18,10 @@ COMMANDS = {
     "resize": "resize mesh.obj --scale 2,1,1 --grid 12 -o out/mesh.off --picture out/mesh.png --picture-size 300x200"
     " --vulnerability out/map.ply --grid-after out/grid.ply",
     "template mesh": "template mesh couch --resolution 16 -o out/mesh.obj --json out/report.json",
-    "template fit": "template fit box.obj --template box --up y --no-turns --samples 200 --volume-samples 200 --sigmas 1"
-    " --fit-iterations 5 --json out/fit.json --picture out/fit.png --picture-size 300x200",
-    "template edit": "template edit mesh.obj --fit fit.json --set width*=1.2 --passes 5 -o out/mesh.obj --json out/fit.json",
+    "template fit": "template fit box.obj --template box --up y --no-turns --samples 200 --volume-samples 200"
+    " --sigmas 1 --fit-iterations 5 --json out/fit.json --picture out/fit.png --picture-size 300x200",
+    "template edit": "template edit mesh.obj --fit fit.json --set width*=1.2 --passes 5 -o out/mesh.obj"
+    " --json out/fit.json",
     "template retarget": "template retarget mesh.obj edit.obj --source-fit fit.json --target-fit fit.json --passes 3"
     " -o out/mesh.obj",
     "template interpolate": "template interpolate mesh.obj --fit fit.json --set width*=1.2 --passes 5 --frames 3"

@@ -1,4 +1,4 @@
-"""Files that cannot be written as they are asked for: the exit code, one line that names the file, and what was there before."""
+"""Files that cannot be written as asked for: exit code, one line that names the file, and what was there before."""
 
 import os
 import pathlib

@@ -1,5 +1,6 @@
-"""Where memory ends, the program ends with one line that says so, or with its result. With the argument --all: more steps, and
-on a mesh that needs more than 4 GiB."""
+"""Where memory ends, the program ends with one line that says so, or with its result.
+
+With the argument --all: more steps, and a mesh that needs more than 4 GiB."""
 
 import math
 import resource
@@ -24,12 +25,14 @@ def write_grid(path, cells):
     side = cells + 1
     point, faces = struct.Struct("<3f"), struct.Struct("<B3iB3i")
     with open(path, "wb") as file:
-        file.write(
+        head = (
             f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\nproperty float x\nproperty float y\n"
-            f"property float z\nelement face {2 * cells * cells}\nproperty list uchar int vertex_indices\nend_header\n".encode()
+            f"property float z\nelement face {2 * cells * cells}\nproperty list uchar int vertex_indices\nend_header\n"
         )
+        file.write(head.encode())
         for y in range(side):
-            row = (point.pack(x / cells, y / cells, math.sin(9 * x / cells) * math.cos(7 * y / cells) / 9) for x in range(side))
+            wave = math.cos(7 * y / cells) / 9
+            row = (point.pack(x / cells, y / cells, math.sin(9 * x / cells) * wave) for x in range(side))
             file.write(b"".join(row))
         for y in range(cells):
             corners = range(y * side, y * side + cells)

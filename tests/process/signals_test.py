@@ -1,5 +1,5 @@
-"""SIGINT and SIGTERM, at random moments of every command that writes: each file is the old one or the new one, byte for byte,
-and nothing else is left. A second argument is the number of signals sent."""
+"""SIGINT and SIGTERM, at random moments of every command that writes: each file is the old one or the new one, byte for
+byte, and nothing else is left. A second argument is the number of signals sent."""
 
 import random
 import signal
