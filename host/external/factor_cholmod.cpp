@@ -15,6 +15,7 @@
 #include "swage/error.h"
 
 extern "C" {
+// NOLINTNEXTLINE(readability-identifier-naming)
 void dpotrf_(const char* triangle, const int* size, double* matrix, const int* rows, int* info);
 int openblas_get_num_threads();
 void openblas_set_num_threads(int);

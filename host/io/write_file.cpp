@@ -77,7 +77,7 @@ class Temporary {
  public:
   Temporary(const fs::path& target, const struct stat* replaced)
       : target_(target), replaces_(replaced != nullptr), file_(open()) {
-    if (!replaces_) return;
+    if (replaced == nullptr) return;
     // Where it may be given away, to root that is, the owner stays; else it is whoever writes.
     [[maybe_unused]] const int given = ::fchown(file_.number(), replaced->st_uid, replaced->st_gid);
     if (::fchmod(file_.number(), replaced->st_mode & 07777) != 0) fail();
