@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cpu_steps.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -180,10 +181,12 @@ class CpuCarry final : public CarryStep {
 
   void count_cells(const GridShape& shape, Slice triangles, Eigen::VectorXi& counts) override {
     counts.resize(triangles.count());
+    Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 16)
     for (Index i = 0; i < triangles.count(); ++i) {
-      counts[i] = static_cast<int>(touched(shape, triangles.first + i).size());
+      thrown.keep([&] { counts[i] = static_cast<int>(touched(shape, triangles.first + i).size()); });
     }
+    thrown.rethrow();
   }
 
   void list_cells(const GridShape& shape, Slice triangles, const Eigen::VectorXi& counts,
@@ -192,11 +195,15 @@ class CpuCarry final : public CarryStep {
     std::vector<Index> firsts(static_cast<size_t>(counts.size()) + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), firsts.begin() + 1, [](Index a, Index b) { return a + b; });
     cells.resize(firsts.back());
+    Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 16)
     for (Index i = 0; i < triangles.count(); ++i) {
-      const std::vector<int> found = touched(shape, triangles.first + i);
-      std::copy(found.begin(), found.end(), cells.begin() + firsts[static_cast<size_t>(i)]);
+      thrown.keep([&] {
+        const std::vector<int> found = touched(shape, triangles.first + i);
+        std::copy(found.begin(), found.end(), cells.begin() + firsts[static_cast<size_t>(i)]);
+      });
     }
+    thrown.rethrow();
   }
 
   void carry(const GridShape& shape, const AxisValues& grid, Positions& carried) override {

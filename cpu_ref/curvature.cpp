@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cpu_steps.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -93,12 +94,16 @@ class CpuCurvature final : public CurvatureStep {
     const int count = static_cast<int>(rest_.positions.rows());
     curvatures.resize(count, 2);
     directions.resize(count, 3);
+    Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 256)
     for (int v = 0; v < count; ++v) {
-      const Principal principal = principal_at(rest_, v);
-      curvatures.row(v) = principal.curvatures;
-      directions.row(v) = principal.direction;
+      thrown.keep([&] {
+        const Principal principal = principal_at(rest_, v);
+        curvatures.row(v) = principal.curvatures;
+        directions.row(v) = principal.direction;
+      });
     }
+    thrown.rethrow();
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cpu_steps.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -23,25 +24,29 @@ class CpuField final : public FieldStep {
     if (all) field.by_parameters.resize(count, tape_.parameter_count);
     const int uniforms = tape_.uniform_count();
     const VectorXd fixed = uniforms_of(parameters);
-#pragma omp parallel
-    {
-      VectorXd values(tape_.slot_count()), slopes(tape_.slot_count());
-      values.head(uniforms) = fixed;
-#pragma omp for schedule(static)
-      for (Index p = 0; p < count; ++p) {
-        values.segment<3>(uniforms) = points.row(p);
-        run(tape_.body, uniforms + 3, values);
-        field.values[p] = values[tape_.root];
-        if (!in_space) continue;
-        slopes.setZero();
-        slopes[tape_.root] = 1;
-        run_back(tape_.body, tape_.slot_count(), values, slopes);
-        field.gradients.row(p) = slopes.segment<3>(uniforms);
-        if (!all) continue;
-        run_back(tape_.setup, uniforms, values, slopes);
-        field.by_parameters.row(p) = slopes.head(tape_.parameter_count);
-      }
+    constexpr Index kBlock = 128;
+    Thrown thrown;
+#pragma omp parallel for schedule(static)
+    for (Index first = 0; first < count; first += kBlock) {
+      thrown.keep([&] {
+        VectorXd values(tape_.slot_count()), slopes(tape_.slot_count());
+        values.head(uniforms) = fixed;
+        for (Index p = first; p < std::min(first + kBlock, count); ++p) {
+          values.segment<3>(uniforms) = points.row(p);
+          run(tape_.body, uniforms + 3, values);
+          field.values[p] = values[tape_.root];
+          if (!in_space) continue;
+          slopes.setZero();
+          slopes[tape_.root] = 1;
+          run_back(tape_.body, tape_.slot_count(), values, slopes);
+          field.gradients.row(p) = slopes.segment<3>(uniforms);
+          if (!all) continue;
+          run_back(tape_.setup, uniforms, values, slopes);
+          field.by_parameters.row(p) = slopes.head(tape_.parameter_count);
+        }
+      });
     }
+    thrown.rethrow();
   }
 
  private:

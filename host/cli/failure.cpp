@@ -4,6 +4,7 @@
 
 #include <CLI/Error.hpp>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "interrupt.h"
@@ -32,11 +33,13 @@ int explain_any() {
   } catch (const UnreadableFile& e) {
     return fail(exit_refused, e.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_failed, "out of memory: use a smaller mesh or a machine with more memory; nothing was written");
+    return fail(exit_failed, kOutOfMemory);
+  } catch (const std::length_error&) {  // More than any memory holds.
+    return fail(exit_failed, kOutOfMemory);
   } catch (const std::exception& e) {
     return fail(exit_failed, e.what());
   } catch (...) {
-    return fail(exit_failed, "an unknown error; nothing was written");
+    return fail(exit_failed, "an unknown error");
   }
 }
 
@@ -44,7 +47,7 @@ int explain_any() {
 
 int explain_failure() {
   // A cancelled call may end in any exception: what counts is that the user asked for it.
-  if (interrupted()) return fail(exit_interrupted, "interrupted, nothing was written");
+  if (interrupted()) return fail(exit_interrupted, "interrupted: files not yet written are as they were");
   return explain_any();
 }
 

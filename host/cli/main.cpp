@@ -10,6 +10,7 @@
 #include "failure.h"
 #include "interrupt.h"
 #include "options.h"
+#include "process.h"
 
 namespace swage::cli {
 namespace {
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
 }  // namespace swage::cli
 
 int main(int argc, char** argv) {
+  swage::cli::prepare_process();
   swage::cli::start_log();
   swage::cli::watch_interrupts();
   try {

@@ -4,12 +4,14 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <atomic>
 #include <iostream>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
 #include "failure.h"
+#include "process.h"
 #include "swage/error.h"
 
 namespace swage::cli {
@@ -64,7 +66,16 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
 void apply(const CommonOptions& common) {
   spdlog::set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
 #ifdef _OPENMP
-  if (common.threads > 0) omp_set_num_threads(common.threads);
+  const int wanted = common.threads > 0 ? common.threads : omp_get_max_threads();
+  const int threads = startable_threads(wanted);
+  if (threads < wanted) {
+    spdlog::warn("only {} of {} threads can be started: memory, or the number of processes, is limited", threads,
+                 wanted);
+  }
+  omp_set_num_threads(threads);
+// Started while there is memory: where libgomp cannot start one later, it ends the program.
+#pragma omp parallel
+  std::atomic_signal_fence(std::memory_order_seq_cst);
 #endif
 }
 

@@ -8,6 +8,7 @@
 #include "neighbourhoods.h"
 #include "parts.h"
 #include "pieces.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -70,8 +71,10 @@ Eigen::VectorXd slippage_losses(const Positions& rest, const Positions& edit, co
   }
   const auto count = static_cast<int>(moved.rows());
   Eigen::VectorXd at_vertices(count);
+  Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 256)
-  for (int v = 0; v < count; ++v) at_vertices[v] = loss_at(around, moved, v);
+  for (int v = 0; v < count; ++v) thrown.keep([&] { at_vertices[v] = loss_at(around, moved, v); });
+  thrown.rethrow();
 
   Eigen::VectorXd losses(triangles.rows());
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {

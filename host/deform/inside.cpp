@@ -8,6 +8,7 @@
 
 #include "adjacency.h"
 #include "nearest.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -100,11 +101,15 @@ std::vector<char> are_inside(const Mesh& surface, const Positions& vertices, con
   for (Eigen::Index first = 0; first < tetrahedra.rows(); first += kChunk) {
     ask(poll);
     const Eigen::Index last = std::min(first + kChunk, tetrahedra.rows());
+    Thrown thrown;
 #pragma omp parallel for schedule(static)
     for (Eigen::Index t = first; t < last; ++t) {
-      const Vector3d middle = corners(tetrahedra.row(t), Eigen::all).colwise().mean();
-      inside[static_cast<size_t>(t)] = crossings.encloses(middle) ? 1 : 0;
+      thrown.keep([&] {
+        const Vector3d middle = corners(tetrahedra.row(t), Eigen::all).colwise().mean();
+        inside[static_cast<size_t>(t)] = crossings.encloses(middle) ? 1 : 0;
+      });
     }
+    thrown.rethrow();
   }
   return inside;
 }

@@ -1,4 +1,6 @@
 // The supernodal factor (GPL, in CHOLMOD) and METIS's nested dissection.
+#include <sys/mman.h>
+
 #include <Eigen/CholmodSupport>
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +15,8 @@
 #include "swage/error.h"
 
 extern "C" {
+// NOLINTNEXTLINE(readability-identifier-naming)
+void dpotrf_(const char* triangle, const int* size, double* matrix, const int* rows, int* info);
 int openblas_get_num_threads();
 void openblas_set_num_threads(int);
 }
@@ -54,6 +58,20 @@ class OneThread {
   }();
 #endif
 };
+
+/// OpenBLAS takes room with its first call, keeps it, and waits for ever where there is none: so it is looked for
+/// before, and taken before the factor takes what is left.
+void take_room_for_blas() {
+  constexpr size_t kRoom = (size_t{128} << 20) + (1 << 16);
+  void* const room = mmap(nullptr, kRoom, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw Unsolvable("factor: the memory does not suffice: take a coarser mesh");
+  munmap(room, kRoom);
+  const OneThread one_thread;
+  const int one = 1;
+  double matrix = 1;
+  int info = 0;
+  dpotrf_("L", &one, &matrix, &one, &info);
+}
 
 /// While it lives std::rand, which METIS seeds and draws from, has another state than the program's.
 class OwnRandom {
@@ -107,6 +125,7 @@ class Supernodal : public Factor, Eigen::CholmodBase<SparseMatrix, Eigen::Upper,
     m_cholmod.method[0].ordering = CHOLMOD_NATURAL;
   }
   void analyze(const SparseMatrix& matrix) override {
+    take_room_for_blas();
     analyzePattern(matrix);
     check(m_cholmod);
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <new>
 
 #include "swage/error.h"
 
@@ -31,6 +32,7 @@ void require_file(const std::filesystem::path& path) {
 
 std::string read_all(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file) refuse_path(path, std::string(std::strerror(errno)) + "; check its permissions");
   std::error_code no_size;
   const auto size = std::filesystem::file_size(path, no_size);

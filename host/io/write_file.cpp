@@ -4,8 +4,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <optional>
 #include <random>
+#include <utility>
 
 #include "swage/error.h"
 #include "swage/mesh_io.h"
@@ -68,11 +68,19 @@ void write_directly(const fs::path& path, const std::string& content) {
   if (file.number() < 0 || !write_all(file.number(), content) || !file.close()) refuse_errno(path, errno);
 }
 
-// A new file beside `path`, removed at the end of the scope unless it took the place of `path`.
+// What is in memory only is not yet in the place of what it replaces. Some file systems cannot tell.
+bool reaches_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
+
+// A new file beside `path`, gone at the end of the scope unless it took the place of `path`. It has no name until it is
+// whole where the file system knows such files: then whatever ends the program leaves nothing behind.
 class Temporary {
  public:
-  Temporary(const fs::path& target, std::optional<mode_t> permissions) : target_(target), file_(create()) {
-    if (permissions && ::fchmod(file_.number(), *permissions) != 0) fail();
+  Temporary(const fs::path& target, const struct stat* replaced)
+      : target_(target), replaces_(replaced != nullptr), file_(open()) {
+    if (replaced == nullptr) return;
+    // Where it may be given away, to root that is, the owner stays; else it is whoever writes.
+    [[maybe_unused]] const int given = ::fchown(file_.number(), replaced->st_uid, replaced->st_gid);
+    if (::fchmod(file_.number(), replaced->st_mode & 07777) != 0) fail();
   }
   ~Temporary() {
     if (!name_.empty()) ::unlink(name_.c_str());
@@ -81,25 +89,50 @@ class Temporary {
   Temporary& operator=(const Temporary&) = delete;
 
   void write(const std::string& content) {
-    if (!write_all(file_.number(), content) || !file_.close()) fail();
+    if (!write_all(file_.number(), content)) fail();
+    if (replaces_ && !reaches_disk(file_.number())) fail();
   }
 
   void rename() {
-    if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
+    if (name_.empty()) {
+      const std::string unnamed = link_to(file_.number());
+      give_name([&](const char* name) {
+        return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+      });
+    }
+    if (!file_.close() || ::rename(name_.c_str(), target_.c_str()) != 0) fail();
     name_.clear();
   }
 
  private:
-  // Opened as any file is, so that the umask gives its permissions.
-  int create() {
+  static std::string link_to(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
+  // As any file is opened, so that the umask gives its permissions.
+  int open() {
+    int number = -1;
+#ifdef O_TMPFILE
+    const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    number = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (number >= 0 && ::access(link_to(number).c_str(), F_OK) == 0) return number;
+    if (number >= 0) ::close(number);
+#endif
+    give_name([&](const char* name) {
+      number = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      return number >= 0;
+    });
+    return number;
+  }
+
+  // Calls take(name) with names until it has one that nothing else has.
+  template <typename Take>
+  void give_name(const Take& take) {
     constexpr int kTries = 100;
     std::random_device random;
     for (int k = 0; k < kTries; ++k) {
-      const fs::path name = target_.parent_path() / (".swage-" + std::to_string(random()) + ".tmp");
-      const int number = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (number >= 0) {
-        name_ = name;
-        return number;
+      fs::path name = target_.parent_path() / (".swage-" + std::to_string(random()) + ".tmp");
+      if (take(name.c_str())) {
+        name_ = std::move(name);
+        return;
       }
       if (errno != EEXIST) break;
     }
@@ -109,18 +142,19 @@ class Temporary {
   // The destructor does not run where the constructor throws.
   [[noreturn]] void fail() {
     const int error = errno;
-    ::unlink(name_.c_str());
+    if (!name_.empty()) ::unlink(name_.c_str());
     name_.clear();
     refuse_errno(target_, error);
   }
 
   fs::path target_;
+  bool replaces_;
   fs::path name_;
   Descriptor file_;
 };
 
-void write_beside(const fs::path& path, const std::string& content, std::optional<mode_t> permissions) {
-  Temporary temporary(path, permissions);
+void write_beside(const fs::path& path, const std::string& content, const struct stat* replaced) {
+  Temporary temporary(path, replaced);
   temporary.write(content);
   temporary.rename();
 }
@@ -133,12 +167,12 @@ void write_file(const fs::path& path, const std::string& content) {
     struct stat present;
     if (::stat(target.c_str(), &present) != 0) {
       if (errno != ENOENT) refuse_errno(path, errno);
-      return write_beside(target, content, std::nullopt);
+      return write_beside(target, content, nullptr);
     }
     if (S_ISDIR(present.st_mode)) refuse(path, "it is a folder; name a file in it");
     if (!S_ISREG(present.st_mode)) return write_directly(target, content);
     if (::access(target.c_str(), W_OK) != 0) refuse(path, "it is read-only; change its permissions or the name");
-    write_beside(target, content, present.st_mode & 07777);
+    write_beside(target, content, &present);
   } catch (const fs::filesystem_error& error) {
     refuse(path, error.code().message());
   }

@@ -8,6 +8,7 @@
 #include "box_tree.h"
 #include "crossing.h"
 #include "distinct.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -93,14 +94,18 @@ class Search {
   /// A leaf once taken is searched to its end: those searched are always the first ones, whatever the threads do.
   void slice() {
     const auto end = Clock::now() + kSlice;
+    Thrown thrown;
 #pragma omp parallel if (surface_.leaf_count() > kFewLeaves)
-    while (!is_done() && Clock::now() < end) {
-      const int leaf = next_++;
-      if (leaf >= surface_.leaf_count()) break;
-      Pairs& pairs = of_leaves_[static_cast<size_t>(leaf)];
-      pairs = surface_.crossings(leaf, most_);
-      found_ += pairs.size();
-    }
+    thrown.keep([&] {
+      while (!is_done() && Clock::now() < end) {
+        const int leaf = next_++;
+        if (leaf >= surface_.leaf_count()) break;
+        Pairs& pairs = of_leaves_[static_cast<size_t>(leaf)];
+        pairs = surface_.crossings(leaf, most_);
+        found_ += pairs.size();
+      }
+    });
+    thrown.rethrow();
   }
 
   /// The first `most` by leaves, ascending.

@@ -12,6 +12,7 @@
 
 #include "measures.h"
 #include "swage/error.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -38,25 +39,26 @@ Positions vertex_normals(const Mesh& mesh, const Lists& corners) {
   return normals;
 }
 
-/// Lists of `count` things: of each what `tell()` appends, made anew for each thread.
+/// Lists of `count` things: of each what `tell()` appends, made anew for each block of them.
 template <typename Make>
 Lists lists_of(Index count, const Make& make_tell) {
   constexpr Index kBlock = 4096;
   const Index blocks = (count + kBlock - 1) / kBlock;
   std::vector<std::vector<int>> items(static_cast<size_t>(blocks));
   std::vector<size_t> ends(static_cast<size_t>(count));  // In the block.
-#pragma omp parallel
-  {
-    auto tell = make_tell();
-#pragma omp for schedule(dynamic)
-    for (Index block = 0; block < blocks; ++block) {
+  Thrown thrown;
+#pragma omp parallel for schedule(dynamic)
+  for (Index block = 0; block < blocks; ++block) {
+    thrown.keep([&] {
+      auto tell = make_tell();
       std::vector<int>& own = items[static_cast<size_t>(block)];
       for (Index i = block * kBlock; i < std::min((block + 1) * kBlock, count); ++i) {
         tell(i, own);
         ends[static_cast<size_t>(i)] = own.size();
       }
-    }
+    });
   }
+  thrown.rethrow();
   std::vector<size_t> firsts(static_cast<size_t>(blocks) + 1, 0);
   std::transform_inclusive_scan(items.begin(), items.end(), firsts.begin() + 1, std::plus(),
                                 [](const std::vector<int>& own) { return own.size(); });

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "swage/thrown.h"
+
 namespace swage {
 namespace {
 
@@ -146,12 +148,16 @@ std::vector<int> firsts_at_places(const Positions& positions, double tolerance) 
   std::vector<int> firsts(static_cast<size_t>(positions.rows()));
   std::iota(firsts.begin(), firsts.end(), 0);
   Buckets buckets = buckets_of(positions, Grid(positions, tolerance));
+  Thrown thrown;
 #pragma omp parallel for schedule(dynamic)
   for (Index bucket = 0; bucket < kBuckets; ++bucket) {
     Entry* const entries = buckets.entries.data();
-    find_firsts(entries + buckets.offsets[static_cast<size_t>(bucket)],
-                entries + buckets.offsets[static_cast<size_t>(bucket) + 1], positions, tolerance, firsts);
+    thrown.keep([&] {
+      find_firsts(entries + buckets.offsets[static_cast<size_t>(bucket)],
+                  entries + buckets.offsets[static_cast<size_t>(bucket) + 1], positions, tolerance, firsts);
+    });
   }
+  thrown.rethrow();
   for (int& first : firsts) first = firsts[static_cast<size_t>(first)];  // The first's own is known by then.
   return firsts;
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "swage/thrown.h"
+
 namespace swage {
 namespace {
 
@@ -23,6 +25,18 @@ void join_rings(const std::vector<std::uint64_t>& pairs, int* next) {
     for (size_t k = i; k < end; ++k) next[second_of(pairs[k])] = second_of(pairs[k + 1 < end ? k + 1 : i]);
     i = end;
   }
+}
+
+/// Calls work(first, last) for blocks of 0 ... count - 1, each by one thread.
+template <typename Work>
+void each_block(int count, const Work& work) {
+  constexpr int kBlock = 1024;
+  Thrown thrown;
+#pragma omp parallel for schedule(dynamic)
+  for (int block = 0; block < (count + kBlock - 1) / kBlock; ++block) {
+    thrown.keep([&] { work(block * kBlock, std::min((block + 1) * kBlock, count)); });
+  }
+  thrown.rethrow();
 }
 
 /// The only other side along its edge; -1 where there is none, or several are.
@@ -46,11 +60,9 @@ bool all_wind_alike(const Triangles& triangles, const NextSides& next) {
 NextSides next_sides(const Triangles& triangles, const Lists& corners) {
   NextSides next(triangles.rows(), 3);
   const int* const vertices = triangles.data();
-#pragma omp parallel
-  {
+  each_block(corners.size(), [&](int first, int last) {
     std::vector<std::uint64_t> spokes;  // The other end of a side, and the side.
-#pragma omp for schedule(dynamic, 1024)
-    for (int v = 0; v < corners.size(); ++v) {
+    for (int v = first; v < last; ++v) {
       spokes.clear();
       for (const int corner : corners[v]) {
         const int before = previous_in_triangle(corner), to = vertices[next_in_triangle(corner)];
@@ -61,15 +73,14 @@ NextSides next_sides(const Triangles& triangles, const Lists& corners) {
       std::sort(spokes.begin(), spokes.end());
       join_rings(spokes, next.data());
     }
-  }
+  });
   return next;
 }
 
 std::vector<int> firsts_alike(const Triangles& triangles, const Lists& corners) {
   std::vector<int> firsts(static_cast<size_t>(triangles.rows()));
   std::iota(firsts.begin(), firsts.end(), 0);
-#pragma omp parallel
-  {
+  each_block(corners.size(), [&](int begin, int end) {
     struct Opposite {
       std::uint64_t vertices;
       int triangle;
@@ -78,8 +89,7 @@ std::vector<int> firsts_alike(const Triangles& triangles, const Lists& corners) 
       }
     };
     std::vector<Opposite> opposites;  // Of triangles whose least vertex this is.
-#pragma omp for schedule(dynamic, 1024)
-    for (int v = 0; v < corners.size(); ++v) {
+    for (int v = begin; v < end; ++v) {
       opposites.clear();
       for (const int corner : corners[v]) {
         const auto [low, high] =
@@ -92,7 +102,7 @@ std::vector<int> firsts_alike(const Triangles& triangles, const Lists& corners) 
         firsts[static_cast<size_t>(opposites[i].triangle)] = firsts[static_cast<size_t>(opposites[i - 1].triangle)];
       }
     }
-  }
+  });
   return firsts;
 }
 

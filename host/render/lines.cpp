@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "draw.h"
+#include "swage/thrown.h"
 #include "tile.h"
 
 namespace swage {
@@ -96,12 +97,16 @@ bool draw_lines(Image& image, const SurfaceView& view, long covered, double widt
   for (int first = 0; first < count; first += kLinesATime) {
     if (!watch.goes_on("lines", double(first) / count)) return false;
     const int last = std::min(count, first + kLinesATime);
+    Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 64)
     for (int l = first; l < last; ++l) {
-      const auto i = static_cast<size_t>(l - first);
-      strokes[i] = stroke_of(view, view.scene.lines[static_cast<size_t>(l)]);
-      hidden[i] = hidden_steps(view, strokes[i]);
+      thrown.keep([&] {
+        const auto i = static_cast<size_t>(l - first);
+        strokes[i] = stroke_of(view, view.scene.lines[static_cast<size_t>(l)]);
+        hidden[i] = hidden_steps(view, strokes[i]);
+      });
     }
+    thrown.rethrow();
     for (int l = first; l < last; ++l) draw_visible(mask, strokes[size_t(l - first)], hidden[size_t(l - first)], width);
   }
   mask.apply(image, covered);

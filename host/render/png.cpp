@@ -1,7 +1,24 @@
+#include <cstdlib>
+#include <new>
+
 #include "swage/error.h"
 #include "swage/mesh_io.h"
 #include "swage/render.h"
 
+namespace {
+
+// stb does not look whether it got what it asked for.
+void* again_or_throw(void* old, std::size_t size) {
+  void* const memory = std::realloc(old, size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+#define STBIW_MALLOC(size) again_or_throw(nullptr, size)
+#define STBIW_REALLOC(old, size) again_or_throw(old, size)
+#define STBIW_FREE(memory) std::free(memory)
 #define STBI_WRITE_NO_STDIO
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION

@@ -1,5 +1,6 @@
 #include "surface_view.h"
 
+#include "swage/thrown.h"
 #include "tile.h"
 
 namespace swage {
@@ -50,13 +51,17 @@ bool draw_surface(Image& image, const SurfaceView& view, long& covered, const Wa
   const auto count = static_cast<int>(tiles.size());
   for (int first = 0; first < count; first += kTilesATime) {
     if (!watch.goes_on("surface", double(first) / count)) return false;
+    Thrown thrown;
 #pragma omp parallel for schedule(dynamic) reduction(+ : covered)
     for (int t = first; t < std::min(count, first + kTilesATime); ++t) {
-      Tile tile(view, tiles[static_cast<size_t>(t)]);
-      if (tile.is_empty()) continue;
-      tile.find_ambience(ambience);
-      covered += tile.paint(image);
+      thrown.keep([&] {
+        Tile tile(view, tiles[static_cast<size_t>(t)]);
+        if (tile.is_empty()) return;
+        tile.find_ambience(ambience);
+        covered += tile.paint(image);
+      });
     }
+    thrown.rethrow();
   }
   return true;
 }

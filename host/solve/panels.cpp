@@ -205,24 +205,24 @@ void Panels<Scalar, kSides>::solve(Eigen::Ref<Sides> sides) const {
   const auto panel_count = static_cast<int>(panels_.size());
   // What each branch adds to the trunk.
   std::vector<Rows> sums(kBranches, Rows::Zero(x.rows() - trunk_, kSides));
+  // A branch's own room, made outside of the loops: what they throw would end the program.
+  std::vector<Work> works(kBranches, Work(most_rows_, kSides));
 #pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads / kSides)
   for (int b = 0; b < kBranches; ++b) {
-    Work work(most_rows_, kSides);
     Rows& trunk = sums[static_cast<size_t>(b)];
     for (int p = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)]; p < branch_ends_[static_cast<size_t>(b)]; ++p) {
-      forward(panels_[static_cast<size_t>(p)], x, &trunk, work);
+      forward(panels_[static_cast<size_t>(p)], x, &trunk, works[static_cast<size_t>(b)]);
     }
   }
-  Work work(most_rows_, kSides);
+  Work& work = works.front();
   for (const Rows& sum : sums) x.bottomRows(sum.rows()) += sum;
   for (int p = branch_ends_.back(); p < panel_count; ++p) forward(panels_[static_cast<size_t>(p)], x, nullptr, work);
   for (int p = panel_count - 1; p >= branch_ends_.back(); --p) backward(panels_[static_cast<size_t>(p)], x, work);
 #pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads / kSides)
   for (int b = 0; b < kBranches; ++b) {
-    Work own_work(most_rows_, kSides);
     const int begin = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)];
     for (int p = branch_ends_[static_cast<size_t>(b)] - 1; p >= begin; --p) {
-      backward(panels_[static_cast<size_t>(p)], x, own_work);
+      backward(panels_[static_cast<size_t>(p)], x, works[static_cast<size_t>(b)]);
     }
   }
   for (Eigen::Index c = 0; c < sides.rows(); ++c) {

@@ -6,6 +6,7 @@
 
 #include "by_place.h"
 #include "measures.h"
+#include "swage/thrown.h"
 
 namespace swage {
 namespace {
@@ -59,15 +60,19 @@ VolumeSamples volume_samples(const Mesh& mesh, const SurfaceDistance& distance, 
   for (Index s = 0; s < count; ++s) {
     for (int u = 0; u < 3; ++u) samples.points(s, u) = middle[u] + (2 * random() - 1) * half[u];
   }
+  Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 64)
   for (Index s = 0; s < count; ++s) {
-    const SurfaceDistance::Found found = distance(samples.points.row(s));
-    samples.distances[s] = found.distance;
-    // Beyond its box nothing is inside.
-    const auto point = samples.points.row(s).array();
-    const bool is_beyond = (point < low.array()).any() || (point > high.array()).any();
-    samples.is_signed[static_cast<size_t>(s)] = found.is_signed || is_beyond ? 1 : 0;
+    thrown.keep([&] {
+      const SurfaceDistance::Found found = distance(samples.points.row(s));
+      samples.distances[s] = found.distance;
+      // Beyond its box nothing is inside.
+      const auto point = samples.points.row(s).array();
+      const bool is_beyond = (point < low.array()).any() || (point > high.array()).any();
+      samples.is_signed[static_cast<size_t>(s)] = found.is_signed || is_beyond ? 1 : 0;
+    });
   }
+  thrown.rethrow();
   return samples;
 }
 

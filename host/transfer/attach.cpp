@@ -4,6 +4,7 @@
 #include "foot_search.h"
 #include "measures.h"
 #include "swage/error.h"
+#include "swage/thrown.h"
 #include "swage/transfer.h"
 
 namespace swage {
@@ -59,8 +60,10 @@ template <typename AttachOne>
 bool attach_all(Index count, const ProgressFn& progress, const AttachOne& attach_one) {
   for (Index first = 0; first < count; first += kBlock) {
     const Index last = std::min(count, first + kBlock);
+    Thrown thrown;
 #pragma omp parallel for schedule(dynamic, 64)
-    for (Index i = first; i < last; ++i) attach_one(i);
+    for (Index i = first; i < last; ++i) thrown.keep([&] { attach_one(i); });
+    thrown.rethrow();
     const double part = static_cast<double>(last) / static_cast<double>(count);
     if (progress && !progress({.stage = "attach", .fraction = part})) return false;
   }
