@@ -37,6 +37,16 @@ std::string numbered(const std::string& path, size_t result, size_t count);
 /// Warns of what was skipped. Throws as read_mesh() does, and InvalidInput for damaged faces.
 MeshFile read_input(const std::string& path);
 
+/// What `work` gives; where it throws InvalidInput, the mesh is named.
+template <typename Work>
+auto naming(const std::string& mesh, const Work& work) {
+  try {
+    return work();
+  } catch (const InvalidInput& e) {
+    throw InvalidInput(mesh + ": " + e.what());
+  }
+}
+
 /// Nothing where there is no output. Throws UnwritableFile.
 void write_result(const EditFiles& files, const MeshFile& file, const Positions& positions);
 
