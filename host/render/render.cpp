@@ -207,7 +207,8 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const std::vector<std::st
     shapes.push_back(shape_of(group));
   }
   refuse_unless(columns.empty() || columns.size() == longest, "contact_sheet",
-                "columns: " + std::to_string(columns.size()) + " titles of " + std::to_string(longest) + " columns");
+                "columns: " + std::to_string(columns.size()) + " titles of " + std::to_string(longest) +
+                    " columns; give one for each");
   return compose(groups, rows_layout(shapes, columns, options, footing.any()), options, footing, progress);
 }
 

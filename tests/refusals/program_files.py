@@ -40,8 +40,8 @@ def ply(header, body=''):
     return f'ply\n{header}end_header\n{body}'
 
 
-BINARY_PLY = ('ply\nformat binary_little_endian 1.0\nelement vertex 3\n' + XYZ + PLY_FACE + 'property list uchar int more\n'
-              'end_header\n').encode() + bytes(36) + b'\x03' + struct.pack('<3i', 0, 1, 2) + b'\xff'
+BINARY_PLY = ('ply\nformat binary_little_endian 1.0\nelement vertex 3\n' + XYZ + PLY_FACE + 'property int flag\n'
+              'end_header\n').encode() + bytes(36) + b'\x03' + struct.pack('<3i', 0, 1, 2)
 
 
 def ply_with_normals(normal='0 0 1', count=3, of='vertex'):
