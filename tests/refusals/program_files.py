@@ -53,11 +53,11 @@ def ply_with_normals(normal='0 0 1', count=3, of='vertex'):
                '\n'.join(rows) + '\n3 0 1 2' + (f' {normal}' if of == 'face' else '') + '\n')
 
 
-def png(width, height, channels=3, colour=b'\x80\x80\xff', damaged=False):
+def png(width, height, channels=3, damaged=False):
     def chunk(kind, data):
         return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
 
-    row = b'\0' + (colour[:channels] * width if channels > 1 else colour[:1] * width)
+    row = b'\0' + b'\x80\x80\xff'[:channels] * width
     pixels = zlib.compress(row * height) if width * height <= 1 << 20 else b''
     if damaged:
         pixels = b'no pixels'

@@ -15,6 +15,14 @@ MeshFile cube_file(const std::vector<std::vector<int>>& polygons = {}) {
   return file;
 }
 
+/// Of a file that has one more.
+MeshFile without_a_face() {
+  write_mesh("read.obj", cube);
+  MeshFile file = read_mesh("read.obj");
+  file.polygons.pop_back();
+  return file;
+}
+
 /// A stream that takes nothing.
 void write_to_broken_stream() {
   std::ostringstream out;
@@ -32,6 +40,8 @@ std::vector<Call> file_calls() {
       CALL(write_mesh("cube.fbx", cube)),
       CALL(write_mesh("missing/cube.obj", cube)),
       CALL(write_mesh("cube.obj", cube_file(), rows(7))),
+      CALL(write_mesh("cube.obj", cube_file(), rows(9))),
+      CALL(write_mesh("cube.obj", without_a_face(), cube.positions)),
       CALL(write_mesh("cube.obj", cube_file({{0, 1}}), cube.positions)),
       CALL(write_mesh("cube.obj", cube_file({{0, 1, 8}}), cube.positions)),
       CALL(write_to_broken_stream()),

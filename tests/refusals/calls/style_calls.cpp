@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "calls.h"
 #include "swage/polycube.h"
 #include "swage/style_io.h"
@@ -32,6 +34,18 @@ NormalPicture picture(int width, int height) {
   NormalPicture made{width, height, {}};
   made.normals.assign(static_cast<size_t>(3 * width * height), 1);
   return made;
+}
+
+NormalPicture upper_half() {
+  NormalPicture made = picture(8, 4);
+  std::fill(made.normals.begin() + 48, made.normals.end(), 0.0F);
+  return made;
+}
+
+Mesh inside_out() {
+  Mesh mesh = cube;
+  mesh.triangles.col(0).swap(mesh.triangles.col(1));
+  return mesh;
 }
 
 Mesh half_sphere() {
@@ -70,6 +84,7 @@ std::vector<Call> style_calls() {
       CALL(sphere_map(triangle)),
       CALL(sphere_map(joined(cube, transformed(cube, 1, {2, 0, 0})))),
       CALL(sphere_map(torus())),
+      CALL(sphere_map(inside_out())),
       CALL(prism(2)),
       CALL(bipyramid(2)),
       CALL(rounded_cube(2)),
@@ -77,7 +92,7 @@ std::vector<Call> style_calls() {
       CALL(normal_capture(NormalPicture{2, 1, {0, 0, 1}}, CaptureLayout::equirectangular)),
       CALL(normal_capture(picture(8, 8), CaptureLayout::hemispheres)),
       CALL(normal_capture(picture(4, 2), CaptureLayout::equirectangular)),
-      CALL(normal_capture(NormalPicture{8, 4, std::vector<float>(96, 0)}, CaptureLayout::equirectangular)),
+      CALL(normal_capture(upper_half(), CaptureLayout::equirectangular)),
       CALL(normal_capture(cube, rows(7))),
       CALL(normal_capture(line, rows(3))),
       CALL(normal_capture(half_sphere(), rows(half_sphere().positions.rows()))),
