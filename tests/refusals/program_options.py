@@ -7,7 +7,8 @@ EDITS = {
     'reshape': 'reshape cube.obj --pin 0 --move 7=0,0,0.1', 'stylize': 'stylize cube.obj --style cube',
     'resize': 'resize cube.obj --scale 2,1,1', 'template edit': 'template edit cube.obj --fit fit.json --set width=1.5',
     'template interpolate': 'template interpolate cube.obj --fit fit.json --set width=1.5',
-    'template retarget': 'template retarget cube.obj cube.obj --source-fit fit.json', 'template mesh': 'template mesh box'}
+    'template retarget': 'template retarget cube.obj cube.obj --source-fit fit.json',
+    'template mesh': 'template mesh box'}
 
 section('Any command')
 row('fold cube.obj')
@@ -16,7 +17,8 @@ for command in ('reshape', 'stylize', 'resize', 'info', 'compare', 'compare cube
                 'template mesh', 'template edit', 'template retarget cube.obj', 'template interpolate'):
     row(command)
 for command in ('reshape cube.obj', 'stylize cube.obj', 'resize cube.obj', 'info cube.obj', 'compare cube.obj cube.obj',
-                'devices', 'demo out', 'template list', 'template show box', 'template mesh box', 'template fit cube.obj',
+                'devices', 'demo out', 'template list', 'template show box', 'template mesh box',
+                'template fit cube.obj',
                 'template edit cube.obj', 'template retarget cube.obj cube.obj', 'template interpolate cube.obj'):
     row(command + ' --sideways')
 row('template')
@@ -96,30 +98,39 @@ row('reshape cube.obj --pin 7 --move 7=0,0,1 -o r.obj')
 row('reshape cube.obj --gesture missing.deform:up -o r.obj')
 
 section('swage reshape')
-for option in ('--method laplace', '--solver quick', '--linear-solver none', '--feature-angle nan', '--feature-angle 181',
+for option in ('--method laplace', '--solver quick', '--linear-solver none', '--feature-angle nan',
+               '--feature-angle 181',
                '--remesh often', '--scaffold often', '--handle-weight 1', '--handle-weight -1 --method arap',
-               '--solver published --remesh always', '--solver published --linear-solver multigrid', '--straight-angle 100',
+               '--solver published --remesh always', '--solver published --linear-solver multigrid',
+               '--straight-angle 100',
                '--straight none --straight-angle 100', '--straight auto --straight-angle 181', '--straight missing.txt',
                '--curvature missing.fk', '--scaffold-mesh t.mesh', '--scaffold-mesh t.obj'):
     row(RESHAPE + ' ' + option)
-for option in ('--solver published', '--linear-solver factor', '--curvature c.fk', '--straight auto', '--feature-angle 90',
+for option in ('--solver published', '--linear-solver factor', '--curvature c.fk', '--straight auto',
+               '--feature-angle 90',
                '--no-finalise', '--remesh always', '--scaffold-mesh t.mesh'):
     row(RESHAPE + ' --method arap ' + option)
 row(RESHAPE + ' --scaffold-mesh missing/t.vtk', 'no such folder')
-row('reshape two.obj --pin 0 --move 7=0,0,0.1 --scaffold always --scaffold-mesh full.vtk -o r.obj', 'a device that is full',
+row('reshape two.obj --pin 0 --move 7=0,0,0.1 --scaffold always --scaffold-mesh full.vtk -o r.obj',
+    'a device that is full',
     {'two.obj': TWO_PARTS}, links={'full.vtk': '/dev/full'})
 
 section('swage stylize')
-for option in ('', '--style sphere', '--style prism2', '--style missing.obj', '--style cube --capture c.png', '--target closest',
-               '--style cube --target nearest', '--style cube --dynamic --no-dynamic', '--style cube --target sphere --no-dynamic',
-               '--style rounded-cube --dynamic', '--capture missing.png', '--capture c.ply --capture-layout hemispheres',
+for option in ('', '--style sphere', '--style prism2', '--style missing.obj', '--style cube --capture c.png',
+               '--target closest',
+               '--style cube --target nearest', '--style cube --dynamic --no-dynamic',
+               '--style cube --target sphere --no-dynamic',
+               '--style rounded-cube --dynamic', '--capture missing.png',
+               '--capture c.ply --capture-layout hemispheres',
                '--capture c.png --capture-layout round', '--normals missing.ply', '--normal-map missing.png',
                '--normal-map n.png --normal-space world', '--normal-map n.png --normal-space object --green down',
                '--developable --tau -1', '--developable --tau 1 --threshold 1', '--tau 1', '--style cube --lambda -1',
-               '--style cube --energy bend', '--style cube --weights none', '--style cube --energy farap --weights intrinsic',
+               '--style cube --energy bend', '--style cube --weights none',
+               '--style cube --energy farap --weights intrinsic',
                '--style cube --accelerate --published', '--style cube --iterations 0'):
     row('stylize cube.obj ' + option + ' -o r.obj')
-for option in ('--capture c.png', '--normals n.ply', '--normal-map n.png', '--developable', '--target sphere --style cube',
+for option in ('--capture c.png', '--normals n.ply', '--normal-map n.png', '--developable',
+               '--target sphere --style cube',
                '--no-dynamic --style cube', '--energy arap', '--weights clamped', '--accelerate', '--published'):
     row('stylize cube.obj --polycube ' + option + ' -o r.obj')
 row('stylize cube.obj --polycube --style-sheet s.png')
@@ -128,9 +139,12 @@ row('stylize cube.obj --style-sheet s.png -o r.obj')
 
 section('swage resize')
 for option in ('', '--scale 2,1', '--scale 1,0,1', '--scale 1,nan,1', '--scale 1,2e6,1', '--size 1,1', '--size 1,2,-3',
-               '--scale 2,1,1 --size 1,1,1', '--size 1e8,-,-', '--scale 2,1,1 --keep-weight 2', '--scale 2,1,1 --keep colour',
-               '--scale 2,1,1 --keep size --keep-weight 0', '--scale 2,1,1 --anchor middle', '--scale 2,1,1 --anchor low,high',
-               '--scale 2,1,1 --grid 4', '--scale 2,1,1 --grid many', '--scale 2,1,1 --grid 0,5,5', '--scale 2,1,1 --grid 5,5.5,5',
+               '--scale 2,1,1 --size 1,1,1', '--size 1e8,-,-', '--scale 2,1,1 --keep-weight 2',
+               '--scale 2,1,1 --keep colour',
+               '--scale 2,1,1 --keep size --keep-weight 0', '--scale 2,1,1 --anchor middle',
+               '--scale 2,1,1 --anchor low,high',
+               '--scale 2,1,1 --grid 4', '--scale 2,1,1 --grid many', '--scale 2,1,1 --grid 0,5,5',
+               '--scale 2,1,1 --grid 5,5.5,5',
                '--scale 2,1,1 --grid 1000,1000,1000', '--scale 2,1,1 --crease-angle 181'):
     row('resize cube.obj ' + option + ' -o r.obj')
 row('resize flat.obj --size -,-,2 -o r.obj', 'a flat mesh', {'flat.obj': TRIANGLE})
@@ -140,7 +154,8 @@ row('resize cube.obj --vulnerability v.obj')
 row('resize cube.obj --grid-before missing/g.ply', 'no such folder')
 row('resize cube.obj --vulnerability v.ply --grid-before v.ply')
 row('resize cube.obj --vulnerability full.ply', 'a device that is full', links={'full.ply': '/dev/full'})
-for protect in ('', 'w<3', '0-7:w', 'component:', '0-7=2', '0-7:x=-0.1', 'component:2', 'group:lid:x=0.5', 'x>5', 'box:5,5,5,6,6,6:x',
+for protect in ('', 'w<3', '0-7:w', 'component:', '0-7=2', '0-7:x=-0.1', 'component:2', 'group:lid:x=0.5', 'x>5',
+                'box:5,5,5,6,6,6:x',
                 '0,1', '@missing.txt'):
     row(f"resize cube.obj --scale 2,1,1 -o r.obj --protect '{protect}'")
 row("resize cube.obj --scale 2,1,1 -o r.obj --release '0-7=1'")
@@ -166,7 +181,8 @@ row('compare cube.obj cube.obj --pin 9')
 
 section('Interrupted')
 for command in ('info {}', 'reshape {} --pin 0 --move 7=0,0,0.1 -o r.obj', 'stylize {} --style cube -o r.obj',
-                'resize {} --scale 2,1,1 -o r.obj', 'compare {} cube.obj', 'template fit {} --template box --json r.json',
+                'resize {} --scale 2,1,1 -o r.obj', 'compare {} cube.obj',
+                'template fit {} --template box --json r.json',
                 'template edit {} --fit fit.json --set width=1.5 -o r.obj',
                 'template retarget {} cube.obj --source-fit fit.json --target-fit fit.json -o r.obj'):
     row(command.replace('{}', 'pipe.obj'), 'SIGINT while a pipe is read', interrupted=True)

@@ -1,5 +1,5 @@
-"""Where the sources refuse something, and the words they do it with: every `throw` and every call of a function whose name
-begins with refuse. Literals alone count; what stands between them is the caller's."""
+"""Where the sources refuse something, and the words they do it with: every `throw` and every call of a function whose
+name begins with refuse. Literals alone count; what stands between them is the caller's."""
 
 import bisect
 import re
