@@ -58,8 +58,9 @@ std::vector<std::string> files_of(const std::string& path, const std::string& re
     std::error_code ignored;
     if (is_mesh_file(entry.path()) && !fs::equivalent(entry.path(), rest, ignored)) files.push_back(entry.path());
   }
-  if (error) throw UnreadableFile(path + ": the folder cannot be read: " + error.message());
-  if (files.empty()) throw UnreadableFile(path + ": there is no edit in this folder: no .obj .ply .stl .off file");
+  if (error) throw UnreadableFile(path + ": the folder cannot be read: " + error.message() + "; check its permissions");
+  if (files.empty())
+    throw UnreadableFile(path + ": there is no edit in this folder: no .obj .ply .stl .off file; name another");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -101,8 +102,9 @@ Measured measure(const Mesh& rest, const std::string& path, const CompareOptions
   MeshFile edit = read_mesh(path);
   for (const std::string& warning : edit.warnings) spdlog::warn("{}", warning);
   if (edit.mesh.positions.rows() != rest.positions.rows()) {
-    throw InvalidInput(fmt::format("{}: it has {} vertices, but the rest has {}: an edit keeps their number and order",
-                                   path, edit.mesh.positions.rows(), rest.positions.rows()));
+    throw InvalidInput(fmt::format(
+        "{}: it has {} vertices, but the rest has {}: an edit keeps their number and order; name edits of this rest",
+        path, edit.mesh.positions.rows(), rest.positions.rows()));
   }
   ProgressBar bar(!common.quiet && !common.verbose);
   Comparison changes = compare(rest.positions, edit.mesh.positions, rest.triangles, options, [&](const Progress& now) {

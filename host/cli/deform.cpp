@@ -23,8 +23,8 @@ void check_deform_job(const ReshapeJob& job) {
   };
   if (!deform_method(job.method)) {
     if (!job.handle_weight) return;
-    throw WrongUsage(
-        fmt::format("--handle-weight is for --method poisson, arap, arap-volume and conformal, not {}", job.method));
+    throw WrongUsage(fmt::format(
+        "--handle-weight is for --method poisson, arap, arap-volume and conformal, not {}: leave it out", job.method));
   }
   refuse(job.solver != defaults.solver, "--solver");
   refuse(job.linear_solver != defaults.linear_solver, "--linear-solver");

@@ -19,7 +19,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder)) {
-    throw UnwritableFile(folder.string() + ": the folder could not be made: " + error.message());
+    throw UnwritableFile(folder.string() + ": the folder could not be made: " + error.message() + "; name another");
   }
 }
 

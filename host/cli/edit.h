@@ -37,6 +37,18 @@ std::string numbered(const std::string& path, size_t result, size_t count);
 /// Warns of what was skipped. Throws as read_mesh() does, and InvalidInput for damaged faces.
 MeshFile read_input(const std::string& path);
 
+/// What `work` gives; `thing`, such as a file, is named where it is refused.
+template <typename Work>
+auto naming(const std::string& thing, const Work& work) {
+  try {
+    return work();
+  } catch (const InvalidInput& e) {
+    throw InvalidInput(thing + ": " + e.what());
+  } catch (const Unsolvable& e) {
+    throw Unsolvable(thing + ": " + e.what());
+  }
+}
+
 /// Nothing where there is no output. Throws UnwritableFile.
 void write_result(const EditFiles& files, const MeshFile& file, const Positions& positions);
 

@@ -59,13 +59,9 @@ Gesture only_gesture(const std::string& path, std::vector<Gesture> gestures) {
 }
 
 Gesture labelled_gesture(const std::string& path, const std::string& label, const std::vector<Gesture>& gestures) {
-  const Gesture* found = nullptr;
   for (const Gesture& gesture : gestures) {
-    if (gesture.label != label) continue;
-    if (found != nullptr) throw InvalidInput(fmt::format("{} holds two gestures {}: rename one", path, label));
-    found = &gesture;
+    if (gesture.label == label) return gesture;
   }
-  if (found != nullptr) return *found;
   throw InvalidInput(fmt::format("{} holds no gesture {}: choose one of {}", path, label, labels(gestures)));
 }
 
@@ -99,12 +95,12 @@ void add_gesture_options(CLI::App& app, GestureOptions& options) {
 }
 
 GestureRecipe::GestureRecipe(const GestureOptions& options) : file_(options.gesture) {
-  for (const std::string& pin : options.pins) moves_.push_back({selection(pin, "--pin"), {0, 0, 0}});
+  for (const std::string& pin : options.pins) moves_.push_back({"--pin " + pin, selection(pin, "--pin"), {0, 0, 0}});
   for (const std::string& move : options.moves) {
     const size_t equals = move.rfind('=');
     if (equals == std::string::npos) throw WrongUsage("--move " + move + ": write SELECT=dx,dy,dz, in mesh units");
     const Eigen::RowVector3d by = displacement(move.substr(equals + 1), move);
-    moves_.push_back({selection(move.substr(0, equals), "--move"), by});
+    moves_.push_back({"--move " + move, selection(move.substr(0, equals), "--move"), by});
   }
   if (file_.empty() && moves_.empty()) {
     throw WrongUsage(
@@ -116,7 +112,11 @@ Gesture GestureRecipe::on(const MeshFile& file) const {
   const Positions& rest = file.mesh.positions;
   Gesture gesture = file_.empty() ? Gesture{} : read_gesture(file_, rest);
   for (const Move& move : moves_) {
-    for (const int v : move.selection.vertices(file)) gesture.add(v, (rest.row(v) + move.displacement).transpose());
+    try {
+      for (const int v : move.selection.vertices(file)) gesture.add(v, (rest.row(v) + move.displacement).transpose());
+    } catch (const InvalidInput& e) {
+      throw InvalidInput(move.words + ": " + e.what());
+    }
   }
   return gesture;
 }

@@ -31,6 +31,7 @@ class GestureRecipe {
 
  private:
   struct Move {
+    std::string words;  ///< The option, as given.
     Selection selection;
     Eigen::RowVector3d displacement;
   };

@@ -67,8 +67,9 @@ void write_scaffold(const std::string& path, const ReshapeResult& result) {
   if (path.empty()) return;
   const std::optional<ReshapedScaffold>& scaffold = result.stand_in ? result.stand_in->scaffold : result.scaffold;
   if (!scaffold) {
-    throw Unsolvable("--scaffold-mesh: no scaffold was made (components: " + result.report.paths.at("components") +
-                     "); leave the option out");
+    throw Unsolvable(fmt::format(
+        "--scaffold-mesh {}: no scaffold was made, components: {}; leave it out, or ask for one with --scaffold always",
+        path, result.report.paths.at("components")));
   }
   write_tetrahedra(path, scaffold->positions, scaffold->tetrahedra);
 }
@@ -83,6 +84,11 @@ void check_method(const ReshapeJob& job) {
   }
   check_deform_job(job);
   check_finding(job.straight, job.finding);
+  if (job.scaffold_mesh.empty()) return;
+  if (!job.scaffold_mesh.ends_with(".mesh") && !job.scaffold_mesh.ends_with(".vtk")) {
+    throw WrongUsage(fmt::format("--scaffold-mesh {}: name a .mesh or .vtk file", job.scaffold_mesh));
+  }
+  check_can_be_written(job.scaffold_mesh, "--scaffold-mesh");
 }
 
 void check_outputs(const ReshapeJob& job) {
@@ -148,15 +154,17 @@ ReshapeResult run(const ReshapeJob& job, const GestureRecipe& recipe, const Comm
   const Stopwatch total, read;
   const MeshFile file = read_input(job.mesh);
   const Gesture gesture = recipe.on(file);
-  check(gesture, file.mesh.positions, file.mesh.triangles);
+  naming(job.mesh, [&] { check(gesture, file.mesh.positions, file.mesh.triangles); });
   ReshapeOptions options = solver_options(job, file.mesh, choice);
   spdlog::debug("{}: {} vertices, {} triangles, {} handles", job.mesh, file.mesh.positions.rows(),
                 file.mesh.triangles.rows(), gesture.targets.size());
   seconds.read = read.seconds();
   stop_if_interrupted();
 
-  ReshapeResult result = solve_or_fall_back(choice, options.backend,
-                                            [&] { return solve(job, file.mesh, gesture, options, common, seconds); });
+  ReshapeResult result = naming(job.mesh, [&] {
+    return solve_or_fall_back(choice, options.backend,
+                              [&] { return solve(job, file.mesh, gesture, options, common, seconds); });
+  });
   for (const std::string& warning : result.report.warnings) spdlog::warn("{}", warning);
 
   const Stopwatch write;

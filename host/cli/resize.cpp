@@ -22,11 +22,7 @@ struct Recipe {
 };
 
 Resize plan_of(const MeshFile& file, const ResizeOptions& options) {
-  try {
-    return {file.mesh.positions, file.mesh.triangles, options};
-  } catch (const InvalidInput& e) {
-    throw InvalidInput(fmt::format("{}: {}", file.path.string(), e.what()));
-  }
+  return naming(file.path.string(), [&] { return Resize(file.mesh.positions, file.mesh.triangles, options); });
 }
 
 Resized resized(const MeshFile& file, const Recipe& recipe, const CommonOptions& common, RunSeconds& seconds) {

@@ -58,7 +58,9 @@ bool is_mesh_name(const std::string& name) {
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 ClosestNormals closest(const StylizeJob& job, std::vector<std::string>& warnings) {
-  ClosestNormals style = closest_normals(job.style.empty() ? style_shape(StyleShape::cube) : style_mesh(job.style));
+  ClosestNormals style = naming("--style " + job.style, [&] {
+    return closest_normals(job.style.empty() ? style_shape(StyleShape::cube) : style_mesh(job.style));
+  });
   style.dynamic = !job.no_dynamic;
   if (style.normals.rows() > kManyNormals) {
     warnings.push_back(
@@ -126,7 +128,9 @@ Style style_of(const StylizeJob& job, const MeshFile& file, std::vector<std::str
   if (method == "capture") return read_normal_capture(job.capture, layout_of(job));
   if (method == "normals") return read_given_normals(job.normals, file);
   if (method == "normal-map") return normal_map(job, file);
-  if (method == "sphere") return sphere_map(style_mesh(job.style), job.published);
+  if (method == "sphere") {
+    return naming("--style " + job.style, [&] { return sphere_map(style_mesh(job.style), job.published); });
+  }
   return closest(job, warnings);
 }
 

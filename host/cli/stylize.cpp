@@ -80,9 +80,11 @@ void run(const StylizeJob& job, const CommonOptions& common) {
   stop_if_interrupted();
 
   StylizeOptions options = solver_options(job, file.mesh, choice);
-  StylizeResult result = solve_or_fall_back(choice, options.backend, [&] {
-    if (job.polycube) return solve_polycube(job, file.mesh, style, handles, options.backend, common, seconds);
-    return solve(file.mesh, style, lambda_of(job), handles, options, common, seconds);
+  StylizeResult result = naming(job.mesh, [&] {
+    return solve_or_fall_back(choice, options.backend, [&] {
+      if (job.polycube) return solve_polycube(job, file.mesh, style, handles, options.backend, common, seconds);
+      return solve(file.mesh, style, lambda_of(job), handles, options, common, seconds);
+    });
   });
   warnings.insert(warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);

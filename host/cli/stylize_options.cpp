@@ -167,7 +167,8 @@ void check_job(const StylizeJob& job) {
   }
   if (!job.style.empty()) check_style_name(job.style);
   if ((job.dynamic || job.no_dynamic) && method_of(job) == "sphere") {
-    throw WrongUsage("--dynamic and --no-dynamic are for --target closest: targets of --target sphere do not change");
+    throw WrongUsage(
+        "--dynamic and --no-dynamic are for --target closest: those of --target sphere do not change: leave it out");
   }
   if (!job.layout.empty() && !job.capture.ends_with(".png")) {
     throw WrongUsage(fmt::format("--capture-layout is for a .png, not for --capture {}: leave it out", job.capture));

@@ -117,7 +117,8 @@ Eigen::VectorXd Settings::on(Eigen::VectorXd values, size_t result) const {
     const double by = setting.value_of(result);
     value = setting.change == '*' ? value * by : setting.change == '+' ? value + by : by;
     if (!std::isfinite(value)) {
-      throw WrongUsage(fmt::format("--set {}: {} is no longer finite", setting.text, setting.name));
+      throw WrongUsage(
+          fmt::format("--set {}: {} is no longer finite: give smaller values", setting.text, setting.name));
     }
   }
   for (const Setting& setting : settings_) check(setting, values[setting.parameter]);

@@ -61,11 +61,9 @@ TemplateFit fit_of(const KnownFit& known, const FitOptions& options, const MeshF
 
 TemplateEdit edit_of(const Template& of, const TemplateFit& fit, const MeshFile& mesh,
                      const TemplateEditOptions& options) {
-  try {
-    return {of, fit.parameters, fit.pose, mesh.mesh.positions, mesh.mesh.triangles, options};
-  } catch (const InvalidInput& e) {
-    throw InvalidInput(fmt::format("{}: {}", mesh.path.string(), e.what()));
-  }
+  return naming(mesh.path.string(), [&] {
+    return TemplateEdit(of, fit.parameters, fit.pose, mesh.mesh.positions, mesh.mesh.triangles, options);
+  });
 }
 
 std::vector<std::string> warnings_of(const KnownFit& known, const TemplateFit& fit, const MeshFile& mesh) {

@@ -43,13 +43,11 @@ std::vector<CLI::Option*> add_fitting_options(CLI::App& app, FitOptions& options
 int points_of(const FitOptions& options) { return options.surface_samples + options.volume_samples; }
 
 TemplateFit fitted(const Template& of, const MeshFile& file, const FitOptions& options, const ProgressFn& progress) {
-  try {
+  return naming(file.path.string(), [&] {
     TemplateFit fit = fit_template(of, file.mesh.positions, file.mesh.triangles, options, progress);
     stop_if_interrupted();
     return fit;
-  } catch (const InvalidInput& e) {
-    throw InvalidInput(fmt::format("{}: {}", file.path.string(), e.what()));
-  }
+  });
 }
 
 std::vector<std::string> warnings_of(const TemplateFit& fit, const std::string& mesh) {

@@ -1,4 +1,5 @@
 #include "swage/compare.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 
 void check_options(const CompareOptions& options, Eigen::Index vertex_count) {
   if (!(options.crease_angle >= 0 && options.crease_angle <= std::numbers::pi)) {
-    throw InvalidInput("compare: options.crease_angle: " + std::to_string(options.crease_angle) +
+    throw InvalidInput("compare: options.crease_angle: " + digits(options.crease_angle) +
                        " is not an angle between 0 and pi radians");
   }
   if (options.crossing_limit < 0) {
@@ -25,7 +26,8 @@ void check_options(const CompareOptions& options, Eigen::Index vertex_count) {
     for (int v : options.straight_chains[c]) {
       if (v >= 0 && v < vertex_count) continue;
       throw InvalidInput("compare: options.straight_chains: chain " + std::to_string(c) + ": vertex " +
-                         std::to_string(v) + " is not one of the mesh's " + std::to_string(vertex_count));
+                         std::to_string(v) + " is not one of the mesh's " + std::to_string(vertex_count) +
+                         "; is it a chain of another mesh?");
     }
   }
 }
@@ -37,7 +39,8 @@ void check_meshes(const PositionsRef& rest, const PositionsRef& edit, const Tria
                        std::to_string(rest.rows()) + ": an edit keeps their number and order");
   }
   check(edit, triangles);
-  if (box_diagonal(rest) == 0) throw InvalidInput("compare: rest: all vertices are at one place");
+  if (box_diagonal(rest) == 0)
+    throw InvalidInput("compare: rest: all vertices are at one place; there is nothing to compare");
 }
 
 /// The farthest that an inner vertex strays from the line between its chain's ends.

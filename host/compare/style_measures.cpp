@@ -99,7 +99,8 @@ StyleMeasures style_measures(const PositionsRef& positions, const TrianglesRef& 
   const Index due = targets.of_triangles ? triangles.rows() : positions.rows();
   if (targets.normals.rows() != due) {
     throw InvalidInput("style_measures: targets: " + std::to_string(targets.normals.rows()) + " rows, but there are " +
-                       std::to_string(due) + (targets.of_triangles ? " triangles" : " vertices"));
+                       std::to_string(due) + (targets.of_triangles ? " triangles" : " vertices") +
+                       "; give one for each");
   }
   StyleMeasures measures;
   measure_angles(positions, triangles, targets, measures);

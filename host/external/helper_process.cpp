@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void cannot_start(const std::string& name, int error) {
+[[noreturn]] void refuse_to_start(const std::string& name, int error) {
   throw Unavailable(name + " cannot be started: " + std::strerror(error));
 }
 
@@ -60,13 +60,13 @@ struct Line {
 Descriptor lifted(Descriptor low, const std::string& name) {
   if (low.number() > STDERR_FILENO) return low;
   Descriptor high(fcntl(low.number(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
-  if (!high.is_open()) cannot_start(name, errno);
+  if (!high.is_open()) refuse_to_start(name, errno);
   return high;
 }
 
 Line new_line(const std::string& name) {
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) cannot_start(name, errno);
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse_to_start(name, errno);
   Descriptor ours(ends[0]), theirs(ends[1]);
   return {lifted(std::move(ours), name), lifted(std::move(theirs), name)};
 }
@@ -147,7 +147,7 @@ pid_t spawn(const fs::path& path, const std::string& name, int talk, int complai
   pid_t id = -1;
   const int error = posix_spawn(&id, program.c_str(), &files, attributes.get(), arguments, environ);
   posix_spawn_file_actions_destroy(&files);
-  if (error != 0) cannot_start(name, error);
+  if (error != 0) refuse_to_start(name, error);
   return id;
 }
 
@@ -195,9 +195,9 @@ class Helper {
   void check() {
     ask(poll_);
     if (std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds) {
-      fail("did not end within " + std::to_string(std::lround(limits_.seconds)) + " seconds");
+      refuse("did not end within " + std::to_string(std::lround(limits_.seconds)) + " seconds");
     }
-    if (answer_.size() > limits_.bytes) fail("answers with more than it may");
+    if (answer_.size() > limits_.bytes) refuse("answers with more than it may");
   }
 
   /// Reads and writes what can be at once, so that neither side waits for the other.
@@ -240,12 +240,12 @@ class Helper {
     ask(poll_);  // Ctrl-C ends both: the caller's word counts.
     if (WIFSIGNALED(status)) {
       const int number = WTERMSIG(status);
-      fail("was ended by signal " + std::to_string(number) + " (" + strsignal(number) + ")");
+      refuse("was ended by signal " + std::to_string(number) + " (" + strsignal(number) + ")");
     }
-    fail("failed with status " + std::to_string(WEXITSTATUS(status)));
+    refuse("failed with status " + std::to_string(WEXITSTATUS(status)));
   }
 
-  [[noreturn]] void fail(const std::string& how) const {
+  [[noreturn]] void refuse(const std::string& how) const {
     const std::string line = last_line(complaint_);
     throw Unsolvable(name_ + " " + how + (line.empty() ? "" : ": " + line));
   }

@@ -1,4 +1,5 @@
 #include "swage/remesh.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,14 @@ constexpr int kFiner = 3;                        // How many times more features
 
 void check_range(const char* option, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw InvalidInput(std::string("remesh: options.") + option + ": " + std::to_string(value) + " is not in [" +
-                     std::to_string(low) + ", " + std::to_string(high) + "]");
+  throw InvalidInput(std::string("remesh: options.") + option + ": " + digits(value) + " is not in [" + digits(low) +
+                     ", " + digits(high) + "]");
 }
 
 void check_above(const char* option, double value, double bound) {
   if (value > bound) return;
-  throw InvalidInput(std::string("remesh: options.") + option + ": " + std::to_string(value) + " is not above " +
-                     std::to_string(bound));
+  throw InvalidInput(std::string("remesh: options.") + option + ": " + digits(value) + " is not above " +
+                     digits(bound));
 }
 
 void check_options(const RemeshOptions& options) {
@@ -52,7 +53,7 @@ Scaled scaled(const PositionsRef& positions, const TrianglesRef& triangles) {
   Scaled result{{positions(surface.vertices, Eigen::all), surface.triangles}, 1};
   Positions& points = result.mesh.positions;
   if (distinct(points, surface.triangles).triangles.rows() == 0) {
-    throw InvalidInput("remesh: triangles: none has an area");
+    throw InvalidInput("remesh: triangles: none has an area; check the mesh's units and coordinates");
   }
   const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   result.scale = std::ldexp(1, std::min(-std::ilogb(extent), 1000));
@@ -111,7 +112,8 @@ Mesh remesh(const PositionsRef& positions, const TrianglesRef& triangles, const 
     const Mesh answer = run(task_of(input, options), options, poll);
     check_answer(answer);
     const Distinct result = distinct(answer.positions, answer.triangles);
-    if (result.triangles.rows() == 0) throw Unsolvable("remesh: nothing is left of the surface");
+    if (result.triangles.rows() == 0)
+      throw Unsolvable("remesh: nothing is left of the surface; ask for more triangles");
     return {answer.positions(result.vertices, Eigen::all) / input.scale, result.triangles};
   } catch (const Cancelled&) {
     return {};

@@ -1,4 +1,5 @@
 #include "swage/scaffold.h"
+#include "messages.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -22,11 +23,10 @@ constexpr int kBoxCorners = 8;
 
 void check_options(const ScaffoldOptions& options) {
   if (!(options.enlargement >= 1.01 && options.enlargement <= 1000)) {
-    throw InvalidInput("scaffold: options.enlargement: " + std::to_string(options.enlargement) +
-                       " is not in [1.01, 1000]");
+    throw InvalidInput("scaffold: options.enlargement: " + digits(options.enlargement) + " is not in [1.01, 1000]");
   }
   if (!(options.time_limit > 0)) {
-    throw InvalidInput("scaffold: options.time_limit: " + std::to_string(options.time_limit) + " is not above 0");
+    throw InvalidInput("scaffold: options.time_limit: " + digits(options.time_limit) + " is not above 0");
   }
 }
 
@@ -68,7 +68,8 @@ struct Task {
 
 Task make_task(const Positions& positions, const Triangles& triangles, double enlargement) {
   Task task{distinct(positions, triangles), {}, 1};
-  if (task.surface.triangles.rows() == 0) throw InvalidInput("scaffold: triangles: none has an area");
+  if (task.surface.triangles.rows() == 0)
+    throw InvalidInput("scaffold: triangles: none has an area; check the mesh's units and coordinates");
   Positions points = positions(task.surface.vertices, Eigen::all);
   const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   task.scale = std::ldexp(1, std::min(-std::ilogb(extent), 1000));
@@ -133,7 +134,7 @@ void leave_out(Task& task, const std::vector<int>& crossing, std::vector<int>& l
     text += (i > 0 ? ", " : "") + std::to_string(triangles[i]);
   }
   if (crossing.size() > kNamed) text += " and " + std::to_string(crossing.size() - kNamed) + " more";
-  throw Unsolvable(text + " cross or overlap others");
+  throw Unsolvable(text + " cross or overlap others; repair them, or leave them out (leave_out_crossing)");
 }
 
 using Face = std::array<int, 3>;
@@ -144,14 +145,15 @@ Face face(int a, int b, int c) {
   return corners;
 }
 
-[[noreturn]] void distrust(const std::string& what) {
+[[noreturn]] void refuse_answer(const std::string& what) {
   throw Unsolvable("scaffold: TetGen returns " + what + "; repair what nearly touches or overlaps");
 }
 
 void check_indices(const Filling& filling) {
   const auto& tetrahedra = filling.tetrahedra;
-  if (tetrahedra.rows() == 0) distrust("no tetrahedra");
-  if (tetrahedra.minCoeff() < 0 || tetrahedra.maxCoeff() >= filling.points.rows()) distrust("corners that are none");
+  if (tetrahedra.rows() == 0) refuse_answer("no tetrahedra");
+  if (tetrahedra.minCoeff() < 0 || tetrahedra.maxCoeff() >= filling.points.rows())
+    refuse_answer("corners that are none");
 }
 
 /// That each triangle is a face of a tetrahedron.
@@ -168,7 +170,7 @@ void check_faces(const Task& task, const Filling& filling) {
     }
   }
   const auto lost = std::count(found.begin(), found.end(), false);
-  if (lost > 0) distrust("tetrahedra that lack " + std::to_string(lost) + " of the triangles as faces");
+  if (lost > 0) refuse_answer("tetrahedra that lack " + std::to_string(lost) + " of the triangles as faces");
 }
 
 double volume(const Positions& positions, const Eigen::RowVector4i& t) {
@@ -187,16 +189,17 @@ void check_volumes(const Task& task, const Filling& filling) {
   double sum = 0;
   for (const auto& t : filling.tetrahedra.rowwise()) {
     const double part = volume(filling.points, t);
-    if (part < -kRounding * box) distrust("a tetrahedron that is inside out");
+    if (part < -kRounding * box) refuse_answer("a tetrahedron that is inside out");
     sum += part;
   }
-  if (!(std::abs(sum - box) < kRounding * box)) distrust("tetrahedra that do not fill the box");
+  if (!(std::abs(sum - box) < kRounding * box)) refuse_answer("tetrahedra that do not fill the box");
 }
 
 void check_filling(const Task& task, const Filling& filling) {
   const Eigen::Index count = task.complex.points.rows();
-  if (filling.points.rows() < count || filling.points.topRows(count) != task.complex.points) distrust("other points");
-  if (!filling.points.allFinite()) distrust("points that are not finite");
+  if (filling.points.rows() < count || filling.points.topRows(count) != task.complex.points)
+    refuse_answer("other points");
+  if (!filling.points.allFinite()) refuse_answer("points that are not finite");
   check_indices(filling);
   check_faces(task, filling);
   check_volumes(task, filling);

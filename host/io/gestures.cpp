@@ -129,14 +129,17 @@ std::vector<Gesture> read_gestures(const std::filesystem::path& path, const Posi
 
 void write_gestures(const std::filesystem::path& path, const std::vector<Gesture>& gestures, const PositionsRef& rest) {
   const double diagonal = box_diagonal(rest);
-  if (!(diagonal > 0)) throw InvalidInput("write_gestures: rest: the mesh has no extent to measure displacements by");
+  if (!(diagonal > 0))
+    throw InvalidInput(
+        "write_gestures: rest: the mesh has no extent to measure displacements by; check its units and coordinates");
   Json list = Json::array();
   for (const Gesture& gesture : gestures) {
     Json displacements = Json::object();
     for (const auto& [vertex, target] : gesture.targets) {
       if (vertex < 0 || vertex >= rest.rows() || !target.allFinite()) {
         throw InvalidInput("write_gestures: gesture " + in_quotes(gesture.label) + ": handle " +
-                           std::to_string(vertex) + " is no vertex of the mesh, or its target is not finite");
+                           std::to_string(vertex) +
+                           " is no vertex of the mesh, or its target is not finite; mend or remove it");
       }
       const Eigen::Vector3d displacement = (target - rest.row(vertex).transpose()) / diagonal;
       displacements[std::to_string(vertex)] = {displacement.x(), displacement.y(), displacement.z()};

@@ -46,7 +46,9 @@ std::string read_all(const std::filesystem::path& path) {
     if (got == 0) break;
     filled += got;
   }
-  if (std::ferror(file.get())) refuse_path(path, "reading it failed: " + std::string(std::strerror(errno)));
+  if (std::ferror(file.get()))
+    refuse_path(path,
+                "reading it failed: " + std::string(std::strerror(errno)) + "; check where it is kept, or copy it");
   bytes.resize(filled);
   return bytes;
 }

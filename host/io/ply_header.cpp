@@ -65,7 +65,8 @@ class HeaderReader {
     scan_.skip_blanks();
     element.count = scan_.integer("the number of elements");
     for (const PlyElement& other : header_.elements) {
-      if (other.name == element.name) refuse(input_, offset_, "element " + in_quotes(element.name) + " comes twice");
+      if (other.name == element.name)
+        refuse(input_, offset_, "element " + in_quotes(element.name) + " comes twice; export again");
     }
     header_.elements.push_back(std::move(element));
   }
@@ -83,7 +84,8 @@ class HeaderReader {
     property.type = type(word);
     property.name = next_word();
     for (const PlyProperty& other : header_.elements.back().properties) {
-      if (other.name == property.name) refuse(input_, offset_, "property " + in_quotes(property.name) + " comes twice");
+      if (other.name == property.name)
+        refuse(input_, offset_, "property " + in_quotes(property.name) + " comes twice; export again");
     }
     header_.elements.back().properties.push_back(std::move(property));
   }

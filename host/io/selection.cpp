@@ -52,7 +52,7 @@ int parse_index(std::string_view part, std::string_view text) {
 double parse_finite(std::string_view part, std::string_view text) {
   double value = 0;
   const bool is_number = !text.empty() && parse_number(text, value) == text.size() && std::isfinite(value);
-  if (!is_number) refuse_part(part, in_quotes(text) + " is no finite number");
+  if (!is_number) refuse_part(part, in_quotes(text) + " is no finite number, such as 1.5");
   return value;
 }
 
@@ -177,7 +177,8 @@ Choose parse_group(std::string_view part, std::string_view name) {
     if (group == file.groups.end()) {
       std::string names;
       for (const auto& [other, vertices] : file.groups) names += (names.empty() ? "" : ", ") + other;
-      refuse_part(part, file.groups.empty() ? "the mesh has no groups" : "no such group; there are " + names);
+      refuse_part(part, file.groups.empty() ? "the mesh has no groups; select by numbers or places"
+                                            : "no such group; take one of " + names);
     }
     Mask mask = none_of(file);
     for (const int v : group->second) {
@@ -234,7 +235,8 @@ std::vector<int> Selection::vertices(const MeshFile& file) const {
   for (size_t v = 0; v < chosen.size(); ++v) {
     if (chosen[v]) vertices.push_back(static_cast<int>(v));
   }
-  if (vertices.empty()) throw InvalidInput("Selection: " + in_quotes(text_) + " selects no vertex of the mesh");
+  if (vertices.empty())
+    throw InvalidInput("Selection: " + in_quotes(text_) + " selects no vertex of the mesh; widen it");
   return vertices;
 }
 
@@ -246,7 +248,8 @@ std::optional<AlignedBox3d> Selection::region(const MeshFile& file) const {
     if (!term->region) return std::nullopt;
     common = common.intersection(term->region(file));
   }
-  if (common.isEmpty()) throw InvalidInput("Selection: " + in_quotes(text_) + " is outside of the mesh's box");
+  if (common.isEmpty())
+    throw InvalidInput("Selection: " + in_quotes(text_) + " is outside of the mesh's box; move or widen it");
   return common;
 }
 

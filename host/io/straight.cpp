@@ -13,7 +13,7 @@ std::string line_of(const std::vector<int>& chain, size_t number) {
   const bool repeats = std::adjacent_find(chain.begin(), chain.end()) != chain.end();
   if (chain.empty() || repeats || *std::min_element(chain.begin(), chain.end()) < 0) {
     throw InvalidInput("write_straight_chains: chains: chain " + std::to_string(number) +
-                       " is empty, holds a negative index or visits a vertex twice in a row");
+                       " is empty, holds a negative index or visits a vertex twice in a row; mend or remove it");
   }
   std::string line;
   for (const int vertex : chain) line += std::to_string(vertex) + ' ';

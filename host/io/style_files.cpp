@@ -78,7 +78,9 @@ GivenNormals read_given_normals(const std::filesystem::path& path, const MeshFil
     return {std::move(normals.vertices), false};
   }
   if (normals.faces.rows() == 0) {
-    refuse(input, "neither its vertices nor its faces have normals, properties nx, ny and nz of type float or double");
+    refuse(input,
+           "neither its vertices nor its faces have normals, properties nx, ny and nz of type float or double; "
+           "export it with them");
   }
   const auto due = static_cast<Eigen::Index>(mesh.polygons.size());
   if (normals.faces.rows() != due) refuse_count(path, normals.faces.rows(), "faces", due);

@@ -174,7 +174,7 @@ void write_file(const fs::path& path, const std::string& content) {
     if (::access(target.c_str(), W_OK) != 0) refuse(path, "it is read-only; change its permissions or the name");
     write_beside(target, content, &present);
   } catch (const fs::filesystem_error& error) {
-    refuse(path, error.code().message());
+    refuse(path, error.code().message() + "; check the folder and its permissions");
   }
 }
 

@@ -131,10 +131,10 @@ std::string fresh_bytes(MeshFormat format, const Content& content) {
 void check_file(const MeshFile& file, const PositionsRef& positions) {
   check(positions, file.mesh.triangles);
   for (size_t p = 0; p < file.polygons.size(); ++p) {
-    if (file.polygons[p].size() < 3) refuse_polygon(p, "has fewer than three corners");
+    if (file.polygons[p].size() < 3) refuse_polygon(p, "has fewer than three corners; remove it");
     for (const int v : file.polygons[p]) {
       if (v < 0 || v >= positions.rows())
-        refuse_polygon(p, "names vertex " + std::to_string(v) + ", which is not there");
+        refuse_polygon(p, "names vertex " + std::to_string(v) + ", which is not there; mend or remove it");
     }
   }
   const Eigen::Index expected = file.source ? file.source->vertex_count : file.mesh.positions.rows();
@@ -178,11 +178,12 @@ void write_face_values(const std::filesystem::path& path, const Mesh& mesh, cons
   for (const FaceValues& face : faces) {
     const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
     if (face.name.empty() || !std::all_of(face.name.begin(), face.name.end(), is_plain)) {
-      throw InvalidInput("write_face_values: '" + face.name + "' is no name of letters, digits and underscores");
+      throw InvalidInput("write_face_values: '" + face.name +
+                         "' is no name of letters, digits and underscores; rename it");
     }
     if (face.values.size() == mesh.triangles.rows()) continue;
     throw InvalidInput("write_face_values: " + face.name + ": " + std::to_string(face.values.size()) + " values for " +
-                       std::to_string(mesh.triangles.rows()) + " triangles");
+                       std::to_string(mesh.triangles.rows()) + " triangles; give one for each");
   }
   const std::vector<std::vector<int>> no_polygons;
   const PositionsRef positions = mesh.positions;

@@ -60,7 +60,8 @@ void write_tetrahedra(const std::filesystem::path& path, const PositionsRef& pos
   for (Eigen::Index t = 0; t < tetrahedra.rows(); ++t) {
     if (tetrahedra.row(t).minCoeff() < 0 || tetrahedra.row(t).maxCoeff() >= positions.rows()) {
       throw InvalidInput("write_tetrahedra: tetrahedra: tetrahedron " + std::to_string(t) +
-                         " names a vertex outside 0 to " + std::to_string(positions.rows() - 1));
+                         " names a vertex outside 0 to " + std::to_string(positions.rows() - 1) +
+                         "; mend or remove it");
     }
   }
   std::string extension = path.extension().string();
@@ -68,7 +69,7 @@ void write_tetrahedra(const std::filesystem::path& path, const PositionsRef& pos
                  [](unsigned char c) { return std::tolower(c); });
   if (extension == ".mesh") return write_file(path, medit_text(positions, tetrahedra));
   if (extension == ".vtk") return write_file(path, vtk_text(positions, tetrahedra));
-  throw InvalidInput("write_tetrahedra: path: " + path.string() + " is neither .mesh nor .vtk");
+  throw InvalidInput("write_tetrahedra: path: " + path.string() + " is neither .mesh nor .vtk; use one of these");
 }
 
 }  // namespace swage

@@ -1,4 +1,5 @@
 #include "swage/curvature.h"
+#include "messages.h"
 
 #include <numbers>
 #include <string>
@@ -13,7 +14,7 @@ namespace {
 
 void check_options(const CurvatureOptions& options) {
   if (!(options.crease_angle >= 0 && options.crease_angle <= std::numbers::pi)) {
-    throw InvalidInput("curvature: options.crease_angle: " + std::to_string(options.crease_angle) +
+    throw InvalidInput("curvature: options.crease_angle: " + digits(options.crease_angle) +
                        " is not an angle between 0 and pi radians");
   }
   if (options.rings < 1) {

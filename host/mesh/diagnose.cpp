@@ -92,7 +92,9 @@ void find_self_intersections(Diagnosis& diagnosis, const Mesh& mesh, int limit, 
 Diagnosis diagnose(const PositionsRef& positions, const TrianglesRef& triangles, const ProgressFn& progress,
                    int crossing_limit) {
   check(positions, triangles);
-  if (crossing_limit < 0) throw InvalidInput("diagnose: crossing_limit: below 0");
+  if (crossing_limit < 0) {
+    throw InvalidInput("diagnose: crossing_limit: " + std::to_string(crossing_limit) + " is below 0");
+  }
   const Mesh mesh{positions, triangles};
   Diagnosis diagnosis;
   diagnosis.vertices = static_cast<int>(mesh.positions.rows());

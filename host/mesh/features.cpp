@@ -1,4 +1,5 @@
 #include "swage/features.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,7 +127,7 @@ class Surface {
 FeatureEdges feature_edges(const PositionsRef& positions, const TrianglesRef& triangles, double feature_angle) {
   check(positions, triangles);
   if (!(feature_angle >= 0 && feature_angle <= std::numbers::pi)) {
-    throw InvalidInput("feature_edges: feature_angle: " + std::to_string(feature_angle) +
+    throw InvalidInput("feature_edges: feature_angle: " + digits(feature_angle) +
                        " is not an angle between 0 and pi radians");
   }
   const Triangles kept = proper(triangles);

@@ -111,7 +111,8 @@ double turn_at(const PositionsRef& positions, int before, int vertex, int after)
 UnitBox unit_box(const PositionsRef& positions) {
   const Eigen::RowVector3d low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
-  if (!(extent > 0)) throw InvalidInput("unit_box: positions: all vertices are at one point");
+  if (!(extent > 0))
+    throw InvalidInput("unit_box: positions: all vertices are at one point; check the mesh's units and coordinates");
   return {low, extent};
 }
 

@@ -25,7 +25,7 @@ void check_triangles(const TrianglesRef& triangles, Eigen::Index vertex_count) {
       const int v = triangles(t, k);
       if (v < 0 || v >= vertex_count) {
         throw InvalidInput("check: triangles: triangle " + std::to_string(t) + " names vertex " + std::to_string(v) +
-                           ", but vertices run from 0 to " + std::to_string(vertex_count - 1));
+                           ", but vertices run from 0 to " + std::to_string(vertex_count - 1) + "; mend or remove it");
       }
     }
   }
@@ -34,8 +34,8 @@ void check_triangles(const TrianglesRef& triangles, Eigen::Index vertex_count) {
 }  // namespace
 
 void check(const PositionsRef& positions, const TrianglesRef& triangles) {
-  if (positions.rows() == 0) throw InvalidInput("check: positions: the mesh has no vertices");
-  if (triangles.rows() == 0) throw InvalidInput("check: triangles: the mesh has no triangles");
+  if (positions.rows() == 0) throw InvalidInput("check: positions: the mesh has no vertices; give a row for each");
+  if (triangles.rows() == 0) throw InvalidInput("check: triangles: the mesh has no triangles; give a row for each");
   check_positions(positions);
   check_triangles(triangles, positions.rows());
 }

@@ -10,6 +10,7 @@
 #include "adjacency.h"
 #include "curve_sides.h"
 #include "measures.h"
+#include "messages.h"
 #include "straight_runs.h"
 #include "swage/error.h"
 #include "swage/features.h"
@@ -23,15 +24,14 @@ constexpr int kMostAtJunction = 100;
 constexpr double kAngleRounding = 1e-9;
 
 void check_options(const StraightOptions& options) {
-  const auto require = [](double value, double most, const char* name, const char* range) {
+  const auto refuse_unless = [](double value, double most, const char* name, const char* range) {
     if (value >= 0 && value <= most) return;
-    throw InvalidInput(std::string("straight_chains: options.") + name + ": " + std::to_string(value) + " is not " +
-                       range);
+    throw InvalidInput(std::string("straight_chains: options.") + name + ": " + digits(value) + " is not " + range);
   };
-  require(options.feature_angle, std::numbers::pi, "feature_angle", "an angle between 0 and pi radians");
-  require(options.turn, std::numbers::pi / 2, "turn", "an angle between 0 and pi / 2 radians");
-  require(options.deviation, 1, "deviation", "between 0 and 1 lengths of a chain");
-  require(options.shortest, 1, "shortest", "between 0 and 1 box diagonals");
+  refuse_unless(options.feature_angle, std::numbers::pi, "feature_angle", "an angle between 0 and pi radians");
+  refuse_unless(options.turn, std::numbers::pi / 2, "turn", "an angle between 0 and pi / 2 radians");
+  refuse_unless(options.deviation, 1, "deviation", "between 0 and 1 lengths of a chain");
+  refuse_unless(options.shortest, 1, "shortest", "between 0 and 1 box diagonals");
 }
 
 /// Feature edges joined into lines that turn little at each vertex.

@@ -58,7 +58,9 @@ cl::Program compiled(const cl::Context& context, const cl::Device& device, const
       return program;
     } catch (const cl::BuildError& error) {
       if (tried < kTries) continue;
-      throw Unavailable("kernels/" + name + ": the device's compiler refuses it\n" + words_of(error));
+      throw Unavailable("kernels/" + name +
+                        ": the device's compiler refuses it: take another device or the cpu backend\n" +
+                        words_of(error));
     }
   }
 }

@@ -122,10 +122,11 @@ const FoundDevice& choose_device(const std::string& wanted, Precision precision)
   if (chosen == all.end()) {
     throw Unavailable(
         (wanted.empty() ? "no OpenCL device can be used" : "no OpenCL device is called \"" + wanted + '"') + ": " +
-        list_of_devices());
+        list_of_devices() + ": name another, or take the cpu backend");
   }
   const Device& facts = chosen->facts;
-  if (!facts.missing.empty()) throw Unavailable("OpenCL device " + facts.name + ' ' + facts.missing);
+  if (!facts.missing.empty())
+    throw Unavailable("OpenCL device " + facts.name + ' ' + facts.missing + ": take another, or the cpu backend");
   if (precision == Precision::twice && !facts.computes_twice) {
     throw Unavailable("OpenCL device " + facts.name + " has no double precision: ask for single");
   }

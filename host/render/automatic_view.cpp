@@ -82,7 +82,8 @@ View automatic_view(const Mesh& mesh, const std::vector<HandleMark>& handles, co
   const char* function = "automatic_view";
   const std::vector<Panel> panels{{mesh, {}, handles, {}, {}}};
   check_panel(panels.front(), 0, function);
-  if (!up.allFinite() || !(up.norm() > 0)) throw InvalidInput("automatic_view: up: it is zero or not finite");
+  if (!up.allFinite() || !(up.norm() > 0))
+    throw InvalidInput("automatic_view: up: it is zero or not finite; give a direction");
   const Eigen::Vector3d upward = up.stableNormalized(), front = front_of(upward);
   const Positions inside = unit_box(seen_positions(panels, function)).into(mesh.positions);
   const RayScene rays(inside, mesh.triangles);

@@ -20,7 +20,8 @@ Eigen::Vector3d axis_across(const Eigen::Vector3d& direction) {
 Camera::Camera(const View& view, const char* function) {
   const double length = view.from.stableNorm();
   if (!view.from.allFinite() || !view.up.allFinite() || !(length > 0)) {
-    throw InvalidInput(std::string(function) + ": the view's direction is zero or not finite, or its up is not finite");
+    throw InvalidInput(std::string(function) +
+                       ": the view's direction is zero or not finite, or its up is not finite; give directions");
   }
   toward = (view.from / length).normalized();
   const Eigen::Vector3d wanted = view.up.stableNormalized();

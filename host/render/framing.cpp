@@ -23,12 +23,12 @@ void check_panel(const Panel& panel, size_t index, const char* function) {
   if (panel.face_values.size() != 0 && panel.face_values.size() != panel.mesh.triangles.rows()) {
     refuse(function, index,
            "face_values: " + std::to_string(panel.face_values.size()) + " numbers of " +
-               std::to_string(panel.mesh.triangles.rows()) + " triangles");
+               std::to_string(panel.mesh.triangles.rows()) + " triangles; give one for each");
   }
   for (size_t h = 0; h < panel.handles.size(); ++h) {
     const HandleMark& mark = panel.handles[h];
     if (!mark.from.allFinite() || !mark.to.allFinite()) {
-      refuse(function, index, "handle " + std::to_string(h) + " is not at a finite place");
+      refuse(function, index, "handle " + std::to_string(h) + " is not at a finite place; mend it");
     }
   }
 }
@@ -45,7 +45,8 @@ Positions seen_positions(std::span<const Panel> panels, const char* function) {
   Positions positions(static_cast<Eigen::Index>(seen.size()), 3);
   for (size_t i = 0; i < seen.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = seen[i];
   if (box_diagonal(positions) == 0) {
-    throw InvalidInput(std::string(function) + ": all vertices of triangles are at one place");
+    throw InvalidInput(std::string(function) +
+                       ": all vertices of triangles are at one place; there is nothing to draw");
   }
   return positions;
 }

@@ -31,7 +31,8 @@ std::string png(const Image& image) {
       3 * static_cast<size_t>(std::max(0, image.width)) * static_cast<size_t>(std::max(0, image.height));
   if (bytes == 0 || image.rgb.size() != bytes) {
     throw InvalidInput("png: image: " + std::to_string(image.rgb.size()) + " bytes are no picture of " +
-                       std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
+                       std::to_string(image.width) + " x " + std::to_string(image.height) +
+                       " pixels; give three a pixel");
   }
   std::string content;
   const auto append = [](void* to, void* data, int size) {

@@ -1,4 +1,5 @@
 #include "swage/render.h"
+#include "messages.h"
 
 #include <cmath>
 #include <limits>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr int kSmallest = 64, kLargest = 16384;
 
-void require(bool good, const char* function, const std::string& why) {
+void refuse_unless(bool good, const char* function, const std::string& why) {
   if (!good) throw InvalidInput(std::string(function) + ": " + why);
 }
 
@@ -29,9 +30,9 @@ void check_available(const char* function) {
 
 void check_options(const RenderOptions& options, const char* function) {
   const auto check_range = [&](const char* name, double value, double low, double high) {
-    require(value >= low && value <= high, function,
-            std::string("options.") + name + ": " + std::to_string(value) + " is not in [" + std::to_string(low) +
-                ", " + std::to_string(high) + "]");
+    refuse_unless(value >= low && value <= high, function,
+                  std::string("options.") + name + ": " + digits(value) + " is not in [" + digits(low) + ", " +
+                      digits(high) + "]");
   };
   check_range("width", options.width, kSmallest, kLargest);
   check_range("height", options.height, kSmallest, kLargest);
@@ -39,11 +40,12 @@ void check_options(const RenderOptions& options, const char* function) {
   check_range("supersampling", options.supersampling, 1, 8);
   check_range("ambient_rays", options.ambient_rays, 0, 64);
   check_range("columns", options.columns, 0, 1000);
-  require(options.up.allFinite() && options.up.norm() > 0, function, "options.up: it is zero or not finite");
+  refuse_unless(options.up.allFinite() && options.up.norm() > 0, function,
+                "options.up: it is zero or not finite; give a direction");
   if (!options.heat_map) return;
   const auto [low, high, label] = *options.heat_map;
-  require(std::isfinite(low) && std::isfinite(high) && low < high, function,
-          "options.heat_map: low and high are not finite, or low is not below high");
+  refuse_unless(std::isfinite(low) && std::isfinite(high) && low < high, function,
+                "options.heat_map: low and high are not finite, or low is not below high; mend them");
 }
 
 /// Of all face values.
@@ -170,7 +172,7 @@ std::pair<std::vector<Group>, Footing> groups_of(const std::vector<SheetRow>& ro
   Footing footing;
   std::vector<Group> groups;
   for (const SheetRow& row : rows) {
-    require(!row.panels.empty(), function, "there is no panel to draw");
+    refuse_unless(!row.panels.empty(), function, "there is no panel to draw; give one");
     for (size_t p = 0; p < row.panels.size(); ++p) {
       check_panel(row.panels[p], p, function);
       footing.values.add(row.panels[p]);
@@ -196,7 +198,7 @@ Image render(const std::vector<Panel>& panels, const RenderOptions& options, con
 
 Image contact_sheet(const std::vector<SheetRow>& rows, const std::vector<std::string>& columns,
                     const RenderOptions& options, const ProgressFn& progress) {
-  require(!rows.empty(), "contact_sheet", "there is no row to draw");
+  refuse_unless(!rows.empty(), "contact_sheet", "there is no row to draw; give one");
   const auto [groups, footing] = groups_of(rows, options, "contact_sheet");
   size_t longest = 0;
   std::vector<GroupShape> shapes;
@@ -204,8 +206,9 @@ Image contact_sheet(const std::vector<SheetRow>& rows, const std::vector<std::st
     longest = std::max(longest, group.row.panels.size());
     shapes.push_back(shape_of(group));
   }
-  require(columns.empty() || columns.size() == longest, "contact_sheet",
-          "columns: " + std::to_string(columns.size()) + " titles of " + std::to_string(longest) + " columns");
+  refuse_unless(columns.empty() || columns.size() == longest, "contact_sheet",
+                "columns: " + std::to_string(columns.size()) + " titles of " + std::to_string(longest) +
+                    " columns; give one for each");
   return compose(groups, rows_layout(shapes, columns, options, footing.any()), options, footing, progress);
 }
 

@@ -1,49 +1,70 @@
 // What cannot be reshaped is refused, in words.
-#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
+#include "messages.h"
 #include "plan.h"
 #include "swage/error.h"
 
 namespace swage {
+namespace {
+
+template <typename Matrix>
+void check_matrix(const char* name, const Matrix& given, Eigen::Index rows, const char* due) {
+  if (given.rows() != rows) {
+    throw InvalidInput(std::string(name) + ": " + std::to_string(given.rows()) + " rows, but the mesh has " +
+                       std::to_string(rows) + due + "; give one for each");
+  }
+  if (const Eigen::Index row = first_not_finite(given); row >= 0) {
+    throw InvalidInput(std::string(name) + ": row " + std::to_string(row) + " is not finite; mend it");
+  }
+}
+
+}  // namespace
 
 void check_options(const ReshapeOptions& options, const Mesh& mesh) {
   const ReshapeWeights w = options.weights.value_or(ReshapeWeights());
-  for (const double weight : {w.normal, w.similarity, w.connect, w.sphericity, w.scale, w.regularizer,
-                              w.normal_regularizer, w.handle, w.straightness}) {
-    if (!(weight >= 0) || std::isinf(weight)) throw InvalidInput("Reshape: options.weights: not finite or negative");
+  const auto refuse_unless = [](bool fits, const std::string& option, double value, const char* range) {
+    if (!fits) throw InvalidInput("Reshape: options." + option + ": " + digits(value) + " is not " + range);
+  };
+  const std::initializer_list<std::pair<const char*, double>> at_least_0 = {
+      {"normal", w.normal},
+      {"similarity", w.similarity},
+      {"connect", w.connect},
+      {"sphericity", w.sphericity},
+      {"scale", w.scale},
+      {"normal_regularizer", w.normal_regularizer},
+      {"straightness", w.straightness}};
+  for (const auto& [name, weight] : at_least_0) {
+    refuse_unless(weight >= 0 && std::isfinite(weight), std::string("weights.") + name, weight,
+                  "finite and at least 0");
   }
-  if (w.regularizer == 0 || w.handle == 0) {
-    throw InvalidInput("Reshape: options.weights: regularizer and handle must be above 0");
+  for (const auto& [name, weight] : {std::pair{"regularizer", w.regularizer}, std::pair{"handle", w.handle}}) {
+    refuse_unless(weight > 0 && std::isfinite(weight), std::string("weights.") + name, weight, "finite and above 0");
   }
-  if (!(options.feature_angle >= 0 && options.feature_angle <= std::numbers::pi)) {
-    throw InvalidInput("Reshape: options.feature_angle: not in [0, pi] radians");
-  }
-  if (options.pass_limit < 1) throw InvalidInput("Reshape: options.pass_limit: below 1");
-  if (!(options.movement > 0) || std::isinf(options.movement)) {
-    throw InvalidInput("Reshape: options.movement: not finite and above 0");
-  }
+  refuse_unless(options.feature_angle >= 0 && options.feature_angle <= std::numbers::pi, "feature_angle",
+                options.feature_angle, "in [0, pi] radians");
+  refuse_unless(options.pass_limit >= 1, "pass_limit", options.pass_limit, "at least 1");
+  refuse_unless(options.movement > 0 && std::isfinite(options.movement), "movement", options.movement,
+                "finite and above 0");
   if (options.linear_solver == LinearSolver::multigrid &&
       (options.solver == ReshapeSolver::published || options.refactor_every_pass)) {
     throw InvalidInput(
         "Reshape: options.linear_solver: the published solver and refactor_every_pass need a factor; take the steady "
         "solver for multigrid");
   }
-  if (options.stand_in_triangles < 100 || options.stand_in_triangles > 1'000'000) {
-    throw InvalidInput("Reshape: options.stand_in_triangles: not in [100, 1000000]");
-  }
+  refuse_unless(options.stand_in_triangles >= 100 && options.stand_in_triangles <= 1'000'000, "stand_in_triangles",
+                options.stand_in_triangles, "in [100, 1000000]");
   if (options.solver == ReshapeSolver::published && options.remesh == When::always) {
     throw InvalidInput("Reshape: options.remesh: the published solver takes the mesh as it is; take the steady solver");
   }
-  if (options.acceleration_window < 0 || options.acceleration_window > 50) {
-    throw InvalidInput("Reshape: options.acceleration_window: not in [0, 50]");
-  }
+  refuse_unless(options.acceleration_window >= 0 && options.acceleration_window <= 50, "acceleration_window",
+                options.acceleration_window, "in [0, 50]");
   if (!options.unit_box_curvatures) return;
-  if (options.unit_box_curvatures->rows() != mesh.triangles.rows() || !options.unit_box_curvatures->allFinite()) {
-    throw InvalidInput("Reshape: options.unit_box_curvatures: not a row of two finite numbers for each of the " +
-                       std::to_string(mesh.triangles.rows()) + " triangles");
-  }
+  check_matrix("Reshape: options.unit_box_curvatures", *options.unit_box_curvatures, mesh.triangles.rows(),
+               " triangles");
 }
 
 void check_start(const ReshapeResult& start, const ReshapeOptions& options, const Mesh& mesh) {
@@ -51,16 +72,8 @@ void check_start(const ReshapeResult& start, const ReshapeOptions& options, cons
     throw InvalidInput(
         "Reshape::solve: the published solver's answer depends on where it starts: solve without a start");
   }
-  const std::string name = "Reshape::solve: start.";
-  auto check_matrix = [&](const char* matrix, const auto& given, Eigen::Index rows, const char* due) {
-    if (given.rows() != rows) {
-      throw InvalidInput(name + matrix + ": " + std::to_string(given.rows()) + " rows, but the mesh has " +
-                         std::to_string(rows) + due);
-    }
-    if (!given.allFinite()) throw InvalidInput(name + matrix + ": not finite");
-  };
-  check_matrix("unfinished", start.unfinished, mesh.positions.rows(), " vertices");
-  check_matrix("transforms", start.transforms, mesh.triangles.rows(), " triangles");
+  check_matrix("Reshape::solve: start.unfinished", start.unfinished, mesh.positions.rows(), " vertices");
+  check_matrix("Reshape::solve: start.transforms", start.transforms, mesh.triangles.rows(), " triangles");
 }
 
 void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh) {
@@ -71,7 +84,8 @@ void check_chains(const std::vector<std::vector<int>>& chains, const Mesh& mesh)
       const int a = chains[c][i], b = chains[c][i + 1];
       if (edge_between(edges, a, b) >= 0) continue;
       throw InvalidInput("Reshape: options.straight_chains: chain " + std::to_string(c) + ": vertices " +
-                         std::to_string(a) + " and " + std::to_string(b) + " are not joined by an edge");
+                         std::to_string(a) + " and " + std::to_string(b) +
+                         " are not joined by an edge; name vertices along edges");
     }
   }
 }

@@ -1,4 +1,5 @@
 #include "assemble.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,10 +135,15 @@ GridVertices Assembly::place(const AxisValues& scales, const Eigen::RowVector3d&
                              const AssemblyOptions& options, const Poll& poll) const {
   const GridShape& shape = plan_->shape;
   check_factors(kCaller, shape, factors);
-  if (scales.rows() != shape.cells.count()) throw InvalidInput("Assembly: scales: not a row for each cell");
-  if (!scales.allFinite()) throw InvalidInput("Assembly: scales: not finite");
+  if (scales.rows() != shape.cells.count()) {
+    throw InvalidInput("Assembly: scales: " + std::to_string(scales.rows()) + " rows, but there are " +
+                       std::to_string(shape.cells.count()) + " cells; give one for each");
+  }
+  if (const Index row = first_not_finite(scales); row >= 0) {
+    throw InvalidInput("Assembly: scales: row " + std::to_string(row) + " is not finite; mend it");
+  }
   if (!(options.tolerance > 0 && options.tolerance < 1)) {
-    throw InvalidInput("Assembly: options.tolerance: not in (0, 1)");
+    throw InvalidInput("Assembly: options.tolerance: " + digits(options.tolerance) + " is not in (0, 1)");
   }
   const auto work = plan_->works.lend([&] { return plan_->new_work(); });
   const Asked asked = {scales, factors, options, poll};

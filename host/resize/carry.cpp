@@ -1,4 +1,5 @@
 #include "carry.h"
+#include "messages.h"
 
 #include "swage/error.h"
 
@@ -7,9 +8,12 @@ namespace swage {
 Positions carry(const GridShape& shape, const AxisValues& vertices, const std::shared_ptr<const Mesh>& mesh,
                 const Backend& backend) {
   if (vertices.rows() != shape.vertices().count()) {
-    throw InvalidInput("carry: vertices: not a row for each vertex of the grid");
+    throw InvalidInput("carry: vertices: " + std::to_string(vertices.rows()) + " rows, but the grid has " +
+                       std::to_string(shape.vertices().count()) + " vertices; give one for each");
   }
-  if (!mesh->positions.allFinite()) throw InvalidInput("carry: points: not finite");
+  if (const Eigen::Index row = first_not_finite(mesh->positions); row >= 0) {
+    throw InvalidInput("carry: points: row " + std::to_string(row) + " is not finite; mend it");
+  }
   Positions carried;
   backend.carry({mesh, {}})->carry(shape, vertices, carried);
   return carried;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "messages.h"
 #include "plan.h"
 #include "swage/error.h"
 #include "vulnerability.h"
@@ -32,7 +33,8 @@ void check_options(const PositionsRef& positions, const ResizeOptions& options) 
     refuse("options.longest: " + std::to_string(options.longest) + " is not between " + std::to_string(kFewestCells) +
            " and " + std::to_string(kMostAlongAxis));
   }
-  if (!(options.tolerance > 0 && options.tolerance < 1)) refuse("options.tolerance: not in (0, 1)");
+  if (!(options.tolerance > 0 && options.tolerance < 1))
+    refuse("options.tolerance: " + digits(options.tolerance) + " is not in (0, 1)");
   if (box_diagonal(positions) == 0) refuse("positions: all vertices are at one place; there is nothing to resize");
   const GridShape shape = shape_of(positions, options);
   if (shape.cells.count() > kMostCells) {
@@ -44,7 +46,7 @@ void check_options(const PositionsRef& positions, const ResizeOptions& options) 
 void check_target(const GridShape& shape, const ResizeTarget& target) {
   check_factors("Resize: target", shape, target.factors);
   if (!(target.size_weight > 0 && std::isfinite(target.size_weight))) {
-    refuse("target.size_weight: not finite and above 0");
+    refuse("target.size_weight: " + digits(target.size_weight) + " is not finite and above 0");
   }
 }
 

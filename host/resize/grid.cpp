@@ -1,4 +1,5 @@
 #include "grid.h"
+#include "messages.h"
 
 #include <cmath>
 #include <cstdint>
@@ -22,12 +23,13 @@ void check_shape(const char* caller, const GridShape& shape) {
   for (int u = 0; u < 3; ++u) {
     const std::string along = " along " + axis_name(u);
     if (!(shape.size[u] >= 0 && std::isfinite(shape.size[u]) && std::isfinite(shape.corner[u]))) {
-      refuse(caller, "shape: box not finite or its size below 0" + along);
+      refuse(caller, "shape: its box is not finite or its size below 0" + along + "; mend it");
     }
-    if (shape.cells[u] < 1) refuse(caller, "shape: cells below 1" + along);
-    if (!shape.extends(u) && shape.cells[u] != 1) refuse(caller, "shape: more than one cell in no extent" + along);
+    if (shape.cells[u] < 1) refuse(caller, "shape: " + std::to_string(shape.cells[u]) + " cells" + along + ", below 1");
+    if (!shape.extends(u) && shape.cells[u] != 1)
+      refuse(caller, "shape: more than one cell" + along + ", where it has no extent; give 1");
     count *= shape.cells[u];
-    if (count > 100'000'000) refuse(caller, "shape: more than 100 million cells");
+    if (count > 100'000'000) refuse(caller, "shape: more than 100 million cells; give fewer");
   }
 }
 
@@ -53,16 +55,18 @@ AxisValues rest_vertices(const GridShape& shape) {
 void check(const char* caller, const GridShape& shape, const CellMap& map) {
   check_shape(caller, shape);
   const Eigen::Index count = shape.cells.count();
-  if (map.theta.rows() != count) refuse(caller, "map.theta: not a row for each cell");
-  if (map.phi.size() != count) refuse(caller, "map.phi: not one for each cell");
+  const std::string due = " rows, but there are " + std::to_string(count) + " cells; give one for each";
+  if (map.theta.rows() != count) refuse(caller, "map.theta: " + std::to_string(map.theta.rows()) + due);
+  if (map.phi.size() != count) refuse(caller, "map.phi: " + std::to_string(map.phi.size()) + due);
   for (Eigen::Index c = 0; c < count; ++c) {
     for (int u = 0; u < 3; ++u) {
       if (!(map.theta(c, u) >= 0 && map.theta(c, u) <= 1)) {
-        refuse(caller, "map.theta: not in [0, 1] in cell " + std::to_string(c) + " along " + axis_name(u));
+        refuse(caller, "map.theta: " + digits(map.theta(c, u)) + " in cell " + std::to_string(c) + " along " +
+                           axis_name(u) + " is not in [0, 1]");
       }
     }
     if (!(map.phi[c] >= 1e-3 && map.phi[c] <= 1e3)) {
-      refuse(caller, "map.phi: not in [0.001, 1000] in cell " + std::to_string(c));
+      refuse(caller, "map.phi: " + digits(map.phi[c]) + " in cell " + std::to_string(c) + " is not in [0.001, 1000]");
     }
   }
 }
@@ -70,7 +74,7 @@ void check(const char* caller, const GridShape& shape, const CellMap& map) {
 void check_factors(const char* caller, const GridShape& shape, const Eigen::RowVector3d& factors) {
   for (int u = 0; u < 3; ++u) {
     if (shape.extends(u) && !(factors[u] >= 1 / kLargestFactor && factors[u] <= kLargestFactor)) {
-      refuse(caller, "factors: not in [1e-6, 1e6] along " + axis_name(u));
+      refuse(caller, "factors: " + digits(factors[u]) + " along " + axis_name(u) + " is not in [1e-6, 1e6]");
     }
   }
 }

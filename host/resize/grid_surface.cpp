@@ -25,7 +25,10 @@ std::array<Index, 4> face_of(const Extents& grid, const std::array<int, 3>& cell
 Mesh grid_surface(const GridShape& shape, const CellMap& map, const AxisValues& vertices, std::vector<int>* cells) {
   check("grid_surface", shape, map);
   const Extents grid = shape.vertices();
-  if (vertices.rows() != grid.count()) throw InvalidInput("grid_surface: vertices: not a row for each of the grid's");
+  if (vertices.rows() != grid.count()) {
+    throw InvalidInput("grid_surface: vertices: " + std::to_string(vertices.rows()) + " rows, but the grid has " +
+                       std::to_string(grid.count()) + " vertices; give one for each");
+  }
   std::vector<int> bounded, corners;
   std::vector<int> numbers(static_cast<size_t>(grid.count()), -1);
   std::vector<Index> used;

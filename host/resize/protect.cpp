@@ -4,6 +4,7 @@
 #include <string>
 
 #include "coverage.h"
+#include "messages.h"
 #include "plan.h"
 #include "swage/error.h"
 
@@ -17,7 +18,8 @@ constexpr double kGrazing = 1e-9;  // Cells: a box that ends where a cell begins
 [[noreturn]] void refuse(const std::string& what) { throw InvalidInput("Resize: protection." + what); }
 
 void check_protection(const ResizePlan& plan, const Protection& protection) {
-  if (!(protection.value >= 0 && protection.value <= 1)) refuse("value: not in [0, 1]");
+  if (!(protection.value >= 0 && protection.value <= 1))
+    refuse("value: " + digits(protection.value) + " is not in [0, 1]");
   for (const int t : protection.triangles) {
     if (t < 0 || t >= plan.mesh->triangles.rows()) {
       refuse("triangles: " + std::to_string(t) + " is none of the " + std::to_string(plan.mesh->triangles.rows()) +
@@ -25,7 +27,7 @@ void check_protection(const ResizePlan& plan, const Protection& protection) {
     }
   }
   if (protection.box && !(protection.box->min().array() <= protection.box->max().array()).all()) {
-    refuse("box: not a number, or its lower corner is above its upper one");
+    refuse("box: a corner is not a number, or the lower is above the upper along an axis; mend them");
   }
 }
 
@@ -79,7 +81,7 @@ void protect(ResizePlan& plan, const Protection& protection) {
   each_coverage(plan.shape, chosen, *plan.options.backend, {}, [&](Index, std::span<const int> touched) {
     cells.insert(cells.end(), touched.begin(), touched.end());
   });
-  if (cells.empty()) refuse("triangles, box: they touch no cell of the grid");
+  if (cells.empty()) refuse("triangles, box: they touch no cell of the grid; select others");
   for (int u = 0; u < 3; ++u) {
     if (!protection.axes[static_cast<size_t>(u)]) continue;
     for (const Index c : cells) plan.said(c, u) = protection.value;

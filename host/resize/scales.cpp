@@ -1,4 +1,5 @@
 #include "scales.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -242,10 +243,11 @@ ScaleSolve& ScaleSolve::operator=(ScaleSolve&&) noexcept = default;
 Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& options, const Poll& poll) const {
   check_factors(kCaller, plan_->shape, given);
   if (!(options.size_weight >= 0 && std::isfinite(options.size_weight))) {
-    throw InvalidInput("ScaleSolve: options.size_weight: not finite and at least 0");
+    throw InvalidInput("ScaleSolve: options.size_weight: " + digits(options.size_weight) +
+                       " is not finite and at least 0");
   }
   if (!(options.tolerance > 0 && options.tolerance < 1))
-    throw InvalidInput("ScaleSolve: options.tolerance: not in (0, 1)");
+    throw InvalidInput("ScaleSolve: options.tolerance: " + digits(options.tolerance) + " is not in (0, 1)");
   Eigen::RowVector3d factors = given;
   for (int u = 0; u < 3; ++u) factors[u] = plan_->shape.extends(u) ? given[u] : 1;
   const auto work = plan_->works.lend([&] { return std::make_unique<ScaleWork>(plan_->matrix); });

@@ -46,7 +46,8 @@ Report alternate(const StopRule& stop, const ProgressFn& progress, Positions& po
       Positions placed = start;
       const double energy = steps.place(placed, poll);
       if (!std::isfinite(energy)) {
-        throw Unsolvable("alternate: the energy of pass " + std::to_string(report.passes) + " is not finite");
+        throw Unsolvable("alternate: the energy of pass " + std::to_string(report.passes) +
+                         " is not finite; look for triangles badly shaped, or remesh");
       }
       last = std::exchange(positions, std::move(placed));
       report.energy = energy;

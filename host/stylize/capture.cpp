@@ -167,9 +167,10 @@ SphereMap normal_capture(const NormalPicture& picture, CaptureLayout layout) {
   check("normal_capture", picture);
   if (picture.width != 2 * picture.height) {
     refuse("picture: " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-           " pixels; in the layout " + to_string(layout) + " it is twice as wide as high");
+           " pixels; in the layout " + to_string(layout) + " it is twice as wide as high: scale it");
   }
-  if (picture.height < 4) refuse("picture: fewer than 4 rows of pixels");
+  if (picture.height < 4)
+    refuse("picture: " + std::to_string(picture.height) + " rows of pixels, fewer than 4: take a larger one");
   Mesh sphere = sphere_for(picture);
   SphereMap map{std::move(sphere.positions), std::move(sphere.triangles), {}};
   map.normals.resize(map.directions.rows(), 3);
@@ -188,10 +189,10 @@ SphereMap normal_capture(const Mesh& sphere, const Positions& normals) {
   check(sphere.positions, sphere.triangles);
   if (normals.rows() != sphere.positions.rows()) {
     refuse("normals: " + std::to_string(normals.rows()) + " rows, but there are " +
-           std::to_string(sphere.positions.rows()) + " vertices");
+           std::to_string(sphere.positions.rows()) + " vertices: give one for each");
   }
   const Eigen::VectorXd areas = area_vectors(sphere.positions, sphere.triangles).rowwise().norm();
-  if (!(areas.sum() > 0)) refuse("sphere: no triangle has an area");
+  if (!(areas.sum() > 0)) refuse("sphere: no triangle has an area: paint a whole sphere");
   SphereMap map;
   map.directions = normalised(sphere.positions.rowwise() - centre_of(sphere, areas));
   map.normals = normals;

@@ -63,7 +63,7 @@ ClosestNormals closest_normals(const Mesh& style, double tolerance) {
     if (!normal.isZero(0)) found.add(normal);
   }
   std::vector<RowVector3d> distinct = found.all();
-  if (distinct.empty()) throw InvalidInput("closest_normals: style: no triangle has an area");
+  if (distinct.empty()) throw InvalidInput("closest_normals: style: no triangle has an area; take another style");
   // Of several that are as near, the first is taken: the authors' program has them in this order.
   std::sort(distinct.begin(), distinct.end(), [](const RowVector3d& a, const RowVector3d& b) {
     return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);

@@ -1,4 +1,5 @@
 #include "swage/polycube.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +20,16 @@ namespace {
 constexpr int kFirstSteps = 60, kSteps = 5;
 
 void check_options(const PolycubeOptions& options) {
-  const auto refuse = [](const char* why) { throw InvalidInput("polycube: options." + std::string(why)); };
-  if (!(options.lambda > 0 && std::isfinite(options.lambda))) refuse("lambda: not finite and above 0");
-  if (options.pass_limit < 1) refuse("pass_limit: below 1");
-  if (!(options.energy_drop >= 0 && std::isfinite(options.energy_drop))) {
-    refuse("energy_drop: not finite and at least 0");
-  }
-  if (!(options.least_angle >= 0 && options.least_angle <= std::numbers::pi / 6)) {
-    refuse("least_angle: not in [0, pi/6]");
-  }
+  const auto refuse_unless = [](bool fits, const char* option, double value, const char* range) {
+    if (!fits)
+      throw InvalidInput(std::string("polycube: options.") + option + ": " + digits(value) + " is not " + range);
+  };
+  refuse_unless(options.lambda > 0 && std::isfinite(options.lambda), "lambda", options.lambda, "finite and above 0");
+  refuse_unless(options.pass_limit >= 1, "pass_limit", options.pass_limit, "at least 1");
+  refuse_unless(options.energy_drop >= 0 && std::isfinite(options.energy_drop), "energy_drop", options.energy_drop,
+                "finite and at least 0");
+  refuse_unless(options.least_angle >= 0 && options.least_angle <= std::numbers::pi / 6, "least_angle",
+                options.least_angle, "in [0, pi/6]");
 }
 
 StylizeOptions stylize_options(const PolycubeOptions& options) {

@@ -34,7 +34,7 @@ void check(const char* function, const NormalPicture& picture) {
   if (numbers > 0 && picture.normals.size() == numbers) return;
   throw InvalidInput(std::string(function) + ": picture: " + std::to_string(picture.normals.size()) +
                      " numbers are no normals of " + std::to_string(picture.width) + " x " +
-                     std::to_string(picture.height) + " pixels");
+                     std::to_string(picture.height) + " pixels; give three a pixel");
 }
 
 Eigen::Vector3d sampled(const NormalPicture& picture, const Pixels& columns, const Pixels& rows, double x, double y) {

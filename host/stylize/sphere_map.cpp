@@ -20,7 +20,9 @@ constexpr double kTimeStep = 1e-3;  // Of unit area.
 constexpr double kStill = 1e-9;
 constexpr int kStepLimit = 300;
 
-[[noreturn]] void refuse(const std::string& why) { throw Unsolvable("sphere_map: style: " + why); }
+[[noreturn]] void refuse(const std::string& why) {
+  throw Unsolvable("sphere_map: style: " + why + "; take another style, or its closest normals");
+}
 
 /// As a sphere is: closed, in one part, without tunnels.
 void check_topology(const Mesh& style) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "messages.h"
 #include "swage/error.h"
 #include "swage/style.h"
 
@@ -99,7 +100,7 @@ Vector3d on_circle(int k, int sides, double z) {
 }
 
 void check_sides(const char* function, int sides) {
-  if (sides < 3) throw InvalidInput(std::string(function) + ": sides: " + std::to_string(sides) + ", below 3");
+  if (sides < 3) throw InvalidInput(std::string(function) + ": sides: " + std::to_string(sides) + " is below 3");
 }
 
 /// The nearest point of the cube [-inner, inner]³, and `radius` from there on.
@@ -157,8 +158,8 @@ Mesh bipyramid(int sides) {
 }
 
 Mesh rounded_cube(double radius, int cells) {
-  if (!(radius > 0 && radius <= 1)) throw InvalidInput("rounded_cube: radius: not in (0, 1]");
-  if (cells < 2) throw InvalidInput("rounded_cube: cells: " + std::to_string(cells) + ", below 2");
+  if (!(radius > 0 && radius <= 1)) throw InvalidInput("rounded_cube: radius: " + digits(radius) + " is not in (0, 1]");
+  if (cells < 2) throw InvalidInput("rounded_cube: cells: " + std::to_string(cells) + " is below 2");
   std::map<std::array<int, 3>, int> numbers;
   std::vector<std::array<int, 3>> triangles;
   const auto vertex = [&](int axis, int side, int a, int b) {

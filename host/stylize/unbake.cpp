@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "measures.h"
+#include "messages.h"
 #include "sampled.h"
 #include "swage/error.h"
 
@@ -142,12 +143,17 @@ class Unbaking {
 void check_texture(const Mesh& mesh, const TextureCoordinates& texture) {
   if (texture.triangles.rows() != mesh.triangles.rows()) {
     throw InvalidInput("unbaked: texture: " + std::to_string(texture.triangles.rows()) +
-                       " triangles, but the mesh has " + std::to_string(mesh.triangles.rows()));
+                       " triangles, but the mesh has " + std::to_string(mesh.triangles.rows()) + "; give one for each");
   }
-  if (texture.triangles.minCoeff() < 0 || texture.triangles.maxCoeff() >= texture.points.rows()) {
-    throw InvalidInput("unbaked: texture: an index is outside [0, " + std::to_string(texture.points.rows()) + ")");
+  for (Eigen::Index t = 0; t < texture.triangles.rows(); ++t) {
+    const auto corners = texture.triangles.row(t);
+    if (corners.minCoeff() >= 0 && corners.maxCoeff() < texture.points.rows()) continue;
+    throw InvalidInput("unbaked: texture: triangle " + std::to_string(t) + " names none of the " +
+                       std::to_string(texture.points.rows()) + " points; mend it");
   }
-  if (!texture.points.allFinite()) throw InvalidInput("unbaked: texture: a point is not finite");
+  if (const Eigen::Index row = first_not_finite(texture.points); row >= 0) {
+    throw InvalidInput("unbaked: texture: point " + std::to_string(row) + " is not finite; mend it");
+  }
 }
 
 }  // namespace

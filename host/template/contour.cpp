@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "lattice.h"
+#include "messages.h"
 #include "preparation.h"
 #include "swage/error.h"
 #include "swage/template.h"
@@ -179,9 +180,12 @@ void check_arguments(const Template& of, const Eigen::VectorXd& parameters, cons
   const auto count = static_cast<Index>(of.parameters().size());
   if (parameters.size() != count) {
     throw InvalidInput("template_mesh: parameters: " + std::to_string(parameters.size()) + ", but the template has " +
-                       std::to_string(count));
+                       std::to_string(count) + "; give one value for each");
   }
-  if (!parameters.allFinite()) throw InvalidInput("template_mesh: parameters: not finite");
+  if (const Index i = first_not_finite(parameters); i >= 0) {
+    throw InvalidInput("template_mesh: parameters: " + of.parameters()[static_cast<size_t>(i)].name +
+                       " is not finite; mend it");
+  }
   if (options.resolution < kLeastResolution || options.resolution > kMostResolution) {
     throw InvalidInput("template_mesh: options.resolution: " + std::to_string(options.resolution) +
                        " is not between 8 and 1024");
@@ -200,8 +204,10 @@ Mesh template_mesh(const Template& of, const Eigen::VectorXd& parameters, const 
     Stages stages(progress, 1, 1);
     stages.begin("cells", 0);
     const NearCells near = cells_near(field, options.resolution, stages.poll());
-    if (near.cells.empty()) throw Unsolvable("template " + of.name() + ": there is no surface near the origin");
-    if (near.touch_border()) throw Unsolvable("template " + of.name() + ": its surface does not end within 64 units");
+    if (near.cells.empty())
+      throw Unsolvable("template " + of.name() + ": there is no surface near the origin; change its parameters");
+    if (near.touch_border())
+      throw Unsolvable("template " + of.name() + ": its surface does not end within 64 units; change its parameters");
     stages.begin("surface", 0.5);
     return Contour(field, near).mesh();
   } catch (const Cancelled&) {

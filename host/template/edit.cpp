@@ -86,7 +86,7 @@ TemplateEditResult TemplateEdit::solve(const Eigen::VectorXd& target, const Prog
 
 TemplateEditResult TemplateEdit::follow(const Eigen::VectorXd& target, int passes) {
   check_parameters(plan_->of, target, "target");
-  if (passes < 1) throw InvalidInput("TemplateEdit::follow: passes: below 1");
+  if (passes < 1) throw InvalidInput("TemplateEdit::follow: passes: " + std::to_string(passes) + " is below 1");
   prepare();
   double seconds = 0;
   TemplateEditResult result;
@@ -106,7 +106,7 @@ std::vector<TemplateEditResult> interpolate(TemplateEdit& edit, const Eigen::Vec
   EditPlan& plan = *edit.plan_;
   check_parameters(plan.of, source, "source");
   check_parameters(plan.of, target, "target");
-  if (count < 2) throw InvalidInput("interpolate: count: fewer than 2 steps");
+  if (count < 2) throw InvalidInput("interpolate: count: " + std::to_string(count) + " is below 2");
   std::vector<TemplateEditResult> steps;
   if (!edit.prepare(progress)) return steps;
   reset(plan);

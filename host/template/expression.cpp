@@ -63,16 +63,16 @@ class Parser {
 
   Scalar whole() {
     const Scalar result = sum();
-    if (next() != '\0') fail("an operator or the end is expected");
+    if (next() != '\0') refuse("an operator or the end is expected");
     return result;
   }
 
  private:
   static constexpr int kDeepest = 100;
 
-  [[noreturn]] void fail(const std::string& what) const {
+  [[noreturn]] void refuse(const std::string& what) const {
     const std::string at = at_ < text_.size() ? "at '" + std::string(text_.substr(at_)) + "'" : "at the end";
-    throw ExpressionError{"'" + std::string(text_) + "': " + what + " " + at};
+    throw ExpressionError{"'" + std::string(text_) + "': " + what + " " + at + "; mend it"};
   }
 
   /// The next character that is no blank; 0 at the end.
@@ -86,11 +86,11 @@ class Parser {
     return true;
   }
   void expect(char c) {
-    if (!take(c)) fail(std::string("'") + c + "' is expected");
+    if (!take(c)) refuse(std::string("'") + c + "' is expected");
   }
 
   Scalar sum() {
-    if (++depth_ > kDeepest) fail("parentheses are nested too deep");
+    if (++depth_ > kDeepest) refuse("parentheses are nested too deep");
     Scalar result = product();
     while (true) {
       if (take('+')) {
@@ -133,14 +133,14 @@ class Parser {
     }
     if (is_digit(c) || c == '.') return number();
     if (is_letter(c)) return named();
-    fail("a number, a name or '(' is expected");
+    refuse("a number, a name or '(' is expected");
   }
 
   Scalar number() {
     double value = 0;
     const char* const begin = text_.data() + at_;
     const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
-    if (error != std::errc() || !std::isfinite(value)) fail("a number is expected");
+    if (error != std::errc() || !std::isfinite(value)) refuse("a number is expected");
     at_ += static_cast<std::size_t>(end - begin);
     return builder_.constant(value);
   }
@@ -157,8 +157,8 @@ class Parser {
     while (take(',')) arguments.push_back(sum());
     expect(')');
     if (arguments.size() < function->least || arguments.size() > function->most) {
-      fail(std::string(name) + " takes " + std::to_string(function->least) +
-           (function->most == kMany ? " or more" : "") + " arguments, not " + std::to_string(arguments.size()) + ",");
+      refuse(std::string(name) + " takes " + std::to_string(function->least) +
+             (function->most == kMany ? " or more" : "") + " arguments, not " + std::to_string(arguments.size()) + ",");
     }
     return function->apply(arguments);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "measures.h"
+#include "messages.h"
 #include "objective.h"
 #include "pose.h"
 #include "preparation.h"
@@ -41,26 +42,31 @@ void check_options(const Template& of, const FitOptions& options) {
   const auto refuse_unless = [](bool fits, const std::string& what) {
     if (!fits) throw InvalidInput("fit_template: options." + what);
   };
-  refuse_unless(options.surface_samples >= 100 && options.surface_samples <= 10'000'000,
-                "surface_samples: not between 100 and 10 million");
-  refuse_unless(options.volume_samples >= 0 && options.volume_samples <= 10'000'000,
-                "volume_samples: not between 0 and 10 million");
-  refuse_unless(options.alpha >= 0 && std::isfinite(options.alpha), "alpha: not finite and at least 0");
-  refuse_unless(options.sigmas >= 1 && options.sigmas <= 20, "sigmas: not between 1 and 20");
-  refuse_unless(options.least_sigma > 0 && options.least_sigma <= 1, "least_sigma: not in (0, 1]");
-  refuse_unless(options.iterations >= 1, "iterations: below 1");
-  refuse_unless(options.up == 0 || (options.up >= 'x' && options.up <= 'z'), "up: not x, y, z or 0");
+  const auto refuse_outside = [&](const char* option, double value, bool fits, const char* range) {
+    refuse_unless(fits, std::string(option) + ": " + digits(value) + " is not " + range);
+  };
+  refuse_outside("surface_samples", options.surface_samples,
+                 options.surface_samples >= 100 && options.surface_samples <= 10'000'000, "between 100 and 10 million");
+  refuse_outside("volume_samples", options.volume_samples,
+                 options.volume_samples >= 0 && options.volume_samples <= 10'000'000, "between 0 and 10 million");
+  refuse_outside("alpha", options.alpha, options.alpha >= 0 && std::isfinite(options.alpha), "finite and at least 0");
+  refuse_outside("sigmas", options.sigmas, options.sigmas >= 1 && options.sigmas <= 20, "between 1 and 20");
+  refuse_outside("least_sigma", options.least_sigma, options.least_sigma > 0 && options.least_sigma <= 1, "in (0, 1]");
+  refuse_outside("iterations", options.iterations, options.iterations >= 1, "at least 1");
+  refuse_unless(options.up == 0 || (options.up >= 'x' && options.up <= 'z'),
+                "up: '" + std::string(1, options.up) + "' is not x, y, z or 0");
   if (options.start.size() > 0) {
     const size_t count = of.parameters().size();
-    refuse_unless(static_cast<size_t>(options.start.size()) == count && options.start.allFinite(),
-                  "start: not " + std::to_string(count) + " finite numbers, the template's parameters");
+    refuse_unless(
+        static_cast<size_t>(options.start.size()) == count && options.start.allFinite(),
+        "start: not " + std::to_string(count) + " finite numbers; give a value for each of the template's parameters");
   }
   if (options.pose) {
     const TemplatePose& pose = *options.pose;
     const bool turns = (pose.rotation * pose.rotation.transpose()).isIdentity(kTurn) && pose.rotation.determinant() > 0;
-    refuse_unless(turns, "pose: its rotation is none");
+    refuse_unless(turns, "pose: its rotation is none; give one that neither mirrors nor scales");
     refuse_unless(pose.scale > 0 && std::isfinite(pose.scale) && pose.offset.allFinite(),
-                  "pose: its scale is not above 0, or it is not finite");
+                  "pose: scale " + digits(pose.scale) + " is not above 0, or something is not finite; mend it");
   }
 }
 
@@ -238,7 +244,9 @@ class Fit {
         list.push_back(attempt(parameters, aligned(mesh_.positions, *box, template_.up(), turn)));
       }
     }
-    if (all.empty()) throw Unsolvable("template " + template_.name() + ": there is no surface to begin with");
+    if (all.empty())
+      throw Unsolvable("template " + template_.name() +
+                       ": there is no surface to begin with; give other parameters as options.start");
     keep_best(guessed, kGuessed);
     std::move(guessed.begin(), guessed.end(), std::back_inserter(all));
     return all;
@@ -290,7 +298,7 @@ TemplateFit fit_template(const Template& of, const PositionsRef& positions, cons
   const UnitBox box = unit_box(used(positions, triangles));
   const Surface surface = surface_of({box.into(positions), triangles}, kOnePlace);
   if (area_vectors(surface.mesh.positions, surface.mesh.triangles).isZero(0)) {
-    throw InvalidInput("fit_template: triangles: none has an area");
+    throw InvalidInput("fit_template: triangles: none has an area; check the mesh's units and coordinates");
   }
   FitOptions inner = options;
   if (inner.pose) *inner.pose = in_unit_box(*inner.pose, box);

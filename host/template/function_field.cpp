@@ -19,7 +19,7 @@ Eigen::VectorXd FunctionField::values_at(const Positions& points, const Eigen::V
   function_(points, parameters, values);
   if (values.size() != points.rows()) {
     throw InvalidInput("FieldFunction: gave " + std::to_string(values.size()) + " values at " +
-                       std::to_string(points.rows()) + " points");
+                       std::to_string(points.rows()) + " points; give one for each");
   }
   return values;
 }

@@ -131,7 +131,7 @@ const std::map<std::string, ReadNode>& types() {
       {"lathe",
        [](Node& n) {
          const std::vector<Scalar> heights = n.numbers("heights", 2), radii = n.numbers("radii", 2);
-         if (heights.size() != radii.size()) n.fields().refuse("radii", "is not as long as heights");
+         if (heights.size() != radii.size()) n.fields().refuse("radii", "is not as long as heights; give one for each");
          return body(lathe(n.axis(), heights, radii));
        }},
       {"circle", [](Node& n) { return flat(circle(n.size("radius"))); }},

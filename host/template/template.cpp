@@ -1,5 +1,6 @@
 // Templates from their files.
 #include "swage/template.h"
+#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,9 +77,9 @@ TemplateParameter read_parameter(Fields& fields) {
   parameter.most = fields.plain_number("max");
   parameter.group = fields.text_or("group", "");
   parameter.description = fields.text_or("description", "");
-  if (!(parameter.least < parameter.most)) fields.refuse("min", "is not below max");
+  if (!(parameter.least < parameter.most)) fields.refuse("min", "is not below max; swap or mend them");
   if (!(parameter.value >= parameter.least && parameter.value <= parameter.most)) {
-    fields.refuse("default", "is not between min and max");
+    fields.refuse("default", "is not between min and max; mend one of them");
   }
   fields.end();
   return parameter;
@@ -143,7 +144,8 @@ class TemplateReader {
       Fields fields(list[i], file_, path_in("parameters", i));
       content_->parameters.push_back(read_parameter(fields));
       const std::string& name = content_->parameters.back().name;
-      if (!numbers_.emplace(name, static_cast<int>(i)).second) fields.refuse("name", "'" + name + "' is there twice");
+      if (!numbers_.emplace(name, static_cast<int>(i)).second)
+        fields.refuse("name", "'" + name + "' is there twice; rename one");
     }
   }
 
@@ -159,7 +161,7 @@ class TemplateReader {
   NodeShape shape_of(const Fields& fields, const std::string& key, const Json& id) {
     if (!id.is_string()) fields.refuse(key, "the id of a node is expected, not " + id.dump());
     const auto found = ids_.find(id.get<std::string>());
-    if (found == ids_.end()) fields.refuse(key, "there is no node " + id.dump());
+    if (found == ids_.end()) fields.refuse(key, "there is no node " + id.dump() + "; add it or name another");
     const std::size_t i = found->second;
     if (const auto known = shapes_.find(i); known != shapes_.end()) return known->second;
     if (!open_.insert(i).second) fields.refuse(key, "node " + id.dump() + " refers back to itself; break the circle");
@@ -183,11 +185,14 @@ class TemplateReader {
     try {
       const auto named = [&](std::string_view name) {
         const auto found = numbers_.find(name);
-        if (found == numbers_.end()) throw ExpressionError{"there is no parameter '" + std::string(name) + "'"};
+        if (found == numbers_.end()) {
+          throw ExpressionError{"there is no parameter '" + std::string(name) + "'; add it or name another"};
+        }
         return builder_->parameter(found->second);
       };
       const Scalar result = parse_expression(value.get<std::string>(), *builder_, named);
-      if (!std::isfinite(builder_->by_default(result, defaults()))) fields.refuse(key, "is not finite by default");
+      if (!std::isfinite(builder_->by_default(result, defaults())))
+        fields.refuse(key, "is not finite by default; mend it");
       return result;
     } catch (const ExpressionError& error) {
       fields.refuse(key, error.what);
@@ -223,12 +228,12 @@ char Template::up() const { return content_->up; }
 const std::vector<TemplateParameter>& Template::parameters() const { return content_->parameters; }
 
 const Tape& Template::tape() const {
-  refuse_function(content_->function, name(), "has no tape");
+  refuse_function(content_->function, name(), "has no tape; call field()");
   return content_->tape;
 }
 
 std::string Template::text() const {
-  refuse_function(content_->function, name(), "has no text");
+  refuse_function(content_->function, name(), "has no text; write it by the program that made it");
   return content_->document.dump(2) + "\n";
 }
 
@@ -256,15 +261,19 @@ Eigen::VectorXd Template::defaults() const {
 Template template_of(const std::string& name, const std::vector<TemplateParameter>& parameters, FieldFunction function,
                      char up) {
   const std::string caller = "template_of: ";
-  if (!function) throw InvalidInput(caller + "function: there is none");
-  if (up != 'x' && up != 'y' && up != 'z') throw InvalidInput(caller + "up: not x, y or z");
+  if (!function) throw InvalidInput(caller + "function: there is none; give one");
+  if (up != 'x' && up != 'y' && up != 'z') {
+    throw InvalidInput(caller + "up: '" + std::string(1, up) + "' is not x, y or z");
+  }
   std::set<std::string> names;
   for (const TemplateParameter& p : parameters) {
     const std::string at = caller + "parameters: '" + p.name + "': ";
-    if (!is_parameter_name(p.name)) throw InvalidInput(at + "no name");
-    if (!names.insert(p.name).second) throw InvalidInput(at + "there twice");
+    if (!is_parameter_name(p.name))
+      throw InvalidInput(at + "no name: letters, digits and underscores, none of a function");
+    if (!names.insert(p.name).second) throw InvalidInput(at + "there twice; rename one");
     if (!(p.least < p.most && p.value >= p.least && p.value <= p.most && std::isfinite(p.most - p.least))) {
-      throw InvalidInput(at + "its value is not within its bounds");
+      throw InvalidInput(at + digits(p.value) + " is not from " + digits(p.least) + " to " + digits(p.most) +
+                         ", bounds that differ and are finite; mend them");
     }
   }
   auto content = std::make_shared<Template::Content>();

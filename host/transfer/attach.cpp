@@ -3,6 +3,7 @@
 
 #include "foot_search.h"
 #include "measures.h"
+#include "messages.h"
 #include "swage/error.h"
 #include "swage/thrown.h"
 #include "swage/transfer.h"
@@ -16,28 +17,30 @@ using Eigen::RowVector3d;
 constexpr Index kBlock = 1 << 14;  // Points between two calls of progress: about a tenth of a second.
 
 void check_points(const PositionsRef& points) {
-  if (points.rows() == 0) throw InvalidInput("attach: points: there are none");
+  if (points.rows() == 0) throw InvalidInput("attach: points: there are none; give one at least");
   for (Index i = 0; i < points.rows(); ++i) {
     if (!(points.row(i).array().abs() <= 1e12).all()) {
       throw InvalidInput("attach: points: row " + std::to_string(i) +
-                         " has a coordinate that is not a number, infinite or beyond 1e12");
+                         " has a coordinate that is not a number, infinite or beyond 1e12; mend it");
     }
   }
 }
 
 void check_options(const TransferOptions& options, Index point_count) {
   if (options.directions < 0 || options.directions > 10'000) {
-    throw InvalidInput("attach: options.directions: not in [0, 10000]");
+    throw InvalidInput("attach: options.directions: " + std::to_string(options.directions) + " is not in [0, 10000]");
   }
-  if (!(options.detour >= 1)) throw InvalidInput("attach: options.detour: below 1");
+  if (!(options.detour >= 1)) {
+    throw InvalidInput("attach: options.detour: " + digits(options.detour) + " is not at least 1");
+  }
   if (!options.normals) return;
   if (options.normals->rows() != point_count) {
     throw InvalidInput("attach: options.normals: " + std::to_string(options.normals->rows()) + " rows, but there are " +
-                       std::to_string(point_count) + " points");
+                       std::to_string(point_count) + " points; give one for each");
   }
   for (Index i = 0; i < point_count; ++i) {
     if (!options.normals->row(i).allFinite()) {
-      throw InvalidInput("attach: options.normals: row " + std::to_string(i) + " is not finite");
+      throw InvalidInput("attach: options.normals: row " + std::to_string(i) + " is not finite; mend it");
     }
   }
 }

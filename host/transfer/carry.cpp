@@ -20,23 +20,25 @@ constexpr double kNoArea = 1e-6;
 void check_count(const char* argument, Index rows, Index due) {
   if (rows == due) return;
   throw InvalidInput(std::string("carry: ") + argument + ": " + std::to_string(rows) + " rows, but the surface has " +
-                     std::to_string(due));
+                     std::to_string(due) + "; give one for each");
 }
 
 void check_attachments(const Attachments& attachments, Index triangle_count) {
   const Index count = attachments.triangles.size();
   if (attachments.barycentric.rows() != count || attachments.offsets.rows() != count) {
-    throw InvalidInput("carry: attachments: triangles, barycentric and offsets differ in rows");
+    throw InvalidInput("carry: attachments: triangles, barycentric and offsets have " + std::to_string(count) + ", " +
+                       std::to_string(attachments.barycentric.rows()) + " and " +
+                       std::to_string(attachments.offsets.rows()) + " rows; leave them as attach() gives them");
   }
   for (Index i = 0; i < count; ++i) {
     const std::string row = "carry: attachments: row " + std::to_string(i);
     const int t = attachments.triangles[i];
     if (t < 0 || t >= triangle_count) {
       throw InvalidInput(row + " names triangle " + std::to_string(t) + ", but triangles run from 0 to " +
-                         std::to_string(triangle_count - 1));
+                         std::to_string(triangle_count - 1) + "; is it of another surface?");
     }
     if (!attachments.barycentric.row(i).allFinite() || !attachments.offsets.row(i).allFinite()) {
-      throw InvalidInput(row + " is not finite");
+      throw InvalidInput(row + " is not finite; mend it");
     }
   }
 }
@@ -45,7 +47,7 @@ void check_transforms(const Transforms& transforms, Index triangle_count) {
   check_count("transforms", transforms.rows(), triangle_count);
   for (Index t = 0; t < triangle_count; ++t) {
     if (!transforms.row(t).allFinite()) {
-      throw InvalidInput("carry: transforms: row " + std::to_string(t) + " is not finite");
+      throw InvalidInput("carry: transforms: row " + std::to_string(t) + " is not finite; mend it");
     }
   }
 }

@@ -222,7 +222,7 @@ TEST_F(Reshaping, AScaffoldIsWrittenWhereThereIsOne) {
   const std::string tetrahedra = (folder_ / "scaffold.mesh").string();
   const Outcome one_part = reshape({"-o", result_.string(), "--scaffold-mesh", tetrahedra});
   EXPECT_EQ(one_part.code, 4);
-  EXPECT_THAT(one_part.err, HasSubstr("--scaffold-mesh: no scaffold was made (components: one); leave the option out"));
+  EXPECT_THAT(one_part.err, HasSubstr("no scaffold was made, components: one; leave it out"));
   EXPECT_EQ(names_in(folder_.path()), (std::vector<std::string>{"box.obj", "pull.deform"}));
 
   write_text(box_, box_obj() + "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 57 59 58\nf 57 58 60\nf 58 59 60\nf 59 57 60\n");

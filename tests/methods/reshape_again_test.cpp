@@ -211,10 +211,10 @@ TEST(ReshapeFromAResult, RefusesOneOfAnotherMeshOrSolver) {
   EXPECT_NE(refusal(prepared, gesture, start).find("start.transforms: 0 rows"), std::string::npos);
   start = good;
   start.unfinished(3, 1) = std::numeric_limits<double>::infinity();
-  EXPECT_NE(refusal(prepared, gesture, start).find("start.unfinished: not finite"), std::string::npos);
+  EXPECT_NE(refusal(prepared, gesture, start).find("start.unfinished: row 3 is not finite"), std::string::npos);
   start = good;
   start.transforms(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusal(prepared, gesture, start).find("start.transforms: not finite"), std::string::npos);
+  EXPECT_NE(refusal(prepared, gesture, start).find("start.transforms: row 3 is not finite"), std::string::npos);
 
   ReshapeOptions options;
   options.solver = ReshapeSolver::published;

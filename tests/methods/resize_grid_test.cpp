@@ -303,30 +303,32 @@ TEST(ResizeGrid, RefusesWhatItCannotTake) {
     expect_refused([&] { ScaleSolve solve(bad_shape, bad); }, with);
     expect_refused([&] { Assembly assembly(bad_shape, bad); }, with);
   };
-  refused("map.theta: not in [0, 1] in cell 7 along y", [](GridShape&, CellMap& map) { map.theta(7, 1) = NAN; });
-  refused("map.theta: not in [0, 1] in cell 0 along z", [](GridShape&, CellMap& map) { map.theta(0, 2) = 1.001; });
-  refused("map.phi: not in [0.001, 1000] in cell 59", [](GridShape&, CellMap& map) { map.phi[59] = 0; });
-  refused("map.phi: not one for each cell", [](GridShape&, CellMap& map) { map.phi.resize(59); });
-  refused("map.theta: not a row for each cell", [](GridShape&, CellMap& map) { map.theta.resize(61, 3); });
-  refused("shape: cells below 1 along y", [](GridShape& grid, CellMap&) { grid.cells[1] = 0; });
+  refused("map.theta: nan in cell 7 along y is not in [0, 1]", [](GridShape&, CellMap& map) { map.theta(7, 1) = NAN; });
+  refused("map.theta: 1.001 in cell 0 along z is not in [0, 1]",
+          [](GridShape&, CellMap& map) { map.theta(0, 2) = 1.001; });
+  refused("map.phi: 0 in cell 59 is not in [0.001, 1000]", [](GridShape&, CellMap& map) { map.phi[59] = 0; });
+  refused("map.phi: 59 rows, but there are 60 cells", [](GridShape&, CellMap& map) { map.phi.resize(59); });
+  refused("map.theta: 61 rows, but there are 60 cells", [](GridShape&, CellMap& map) { map.theta.resize(61, 3); });
+  refused("shape: 0 cells along y, below 1", [](GridShape& grid, CellMap&) { grid.cells[1] = 0; });
   refused("size below 0 along z", [](GridShape& grid, CellMap&) { grid.size[2] = -1; });
-  refused("shape: more than one cell in no extent along x", [](GridShape& grid, CellMap&) { grid.size[0] = 0; });
+  refused("shape: more than one cell along x, where it has no extent",
+          [](GridShape& grid, CellMap&) { grid.size[0] = 0; });
   refused("more than 100 million cells", [](GridShape& grid, CellMap&) { grid.cells = {{60000, 60000, 60000}}; });
 
   const ScaleSolve solve(shape, good);
   const Assembly assembly(shape, good);
   const AxisValues ones = AxisValues::Ones(60, 3);
   for (const double bad : {0.0, -1.0, double{INFINITY}, double{NAN}}) {
-    expect_refused([&] { solve.solve({1, bad, 1}); }, "factors: not in [1e-6, 1e6] along y");
-    expect_refused([&] { assembly.place(ones, {1, 1, bad}); }, "factors: not in [1e-6, 1e6] along z");
+    expect_refused([&] { solve.solve({1, bad, 1}); }, " along y is not in [1e-6, 1e6]");
+    expect_refused([&] { assembly.place(ones, {1, 1, bad}); }, " along z is not in [1e-6, 1e6]");
   }
   expect_refused([&] { solve.solve({1, 1, 1}, {-1, 1e-6}); }, "options.size_weight");
   expect_refused([&] { solve.solve({1, 1, 1}, {0, 0}); }, "options.tolerance");
   expect_refused([&] { assembly.place(ones, {1, 1, 1}, {1}); }, "options.tolerance");
-  expect_refused([&] { assembly.place(ones.topRows(59), {1, 1, 1}); }, "scales: not a row for each cell");
-  expect_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: not finite");
+  expect_refused([&] { assembly.place(ones.topRows(59), {1, 1, 1}); }, "scales: 59 rows, but there are 60 cells");
+  expect_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: row 0 is not finite");
   expect_refused([&] { carry(shape, ones, ones); }, "carry: vertices");
-  expect_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: not finite");
+  expect_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: row 0 is not finite");
 }
 
 }  // namespace

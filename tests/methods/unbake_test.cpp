@@ -171,7 +171,7 @@ TEST(Unbaked, WhatDoesNotFitIsRefused) {
   endless.points(0, 0) = std::nan("");
   const NormalPicture map = constant(kRed);
   EXPECT_THAT(refused(fewer, map), HasSubstr("7 triangles, but the mesh has 8"));
-  EXPECT_THAT(refused(beyond, map), HasSubstr("outside [0, 9)"));
+  EXPECT_THAT(refused(beyond, map), HasSubstr("names none of the 9 points"));
   EXPECT_THAT(refused(endless, map), HasSubstr("not finite"));
   EXPECT_THAT(refused(texture, NormalPicture{2, 2, {1}}), HasSubstr("no normals of 2 x 2"));
 }
