@@ -10,7 +10,6 @@
 #include <set>
 
 #include "swage/error.h"
-#include "template_report.h"
 
 namespace swage::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "report_json.h"
+#include "template_json.h"
 #include "swage/mesh_io.h"
 #include "swage/template_fit.h"
 
