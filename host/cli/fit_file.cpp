@@ -15,6 +15,7 @@ namespace swage::cli {
 namespace {
 
 constexpr double kRounding = 1e-6;  // By which a rotation may miss one.
+constexpr int kDeepest = 100;       // What is nested is written by functions that call themselves.
 
 /// An object in the file, whose keys are read strictly.
 class Reader {
@@ -67,13 +68,14 @@ class Reader {
   std::string file_, path_;
 };
 
-/// Refuses keys that are there twice: of such only one would count.
+/// Refuses what is nested too deep, and keys that are there twice: of such only one would count.
 class KeyWatch {
  public:
   explicit KeyWatch(const std::string& file) : file_(file) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
+    if (depth > kDeepest) throw UnreadableFile(file_ + ": brackets are nested too deep; mend it");
     if (event == Event::object_start) open_.emplace_back();
     if (event == Event::object_end) open_.pop_back();
     if (event == Event::key && !open_.back().insert(parsed.get<std::string>()).second) {

@@ -63,16 +63,15 @@ class TextureReader {
   int corner() {
     const size_t begin = scan_.at();
     scan_.leading_integer("a vertex number");
-    if (!scan_.take('/') || !scan_.at_integer()) {
-      scan_.jump(begin);
-      const std::string_view corner = scan_.word();
-      if (bare_.empty()) bare_ = in_quotes(corner);
+    const bool has_point = scan_.take('/') && scan_.at_integer();
+    const long long index = has_point ? scan_.leading_integer("a texture vertex number") : 0;
+    if (scan_.take('/') && scan_.at_integer()) scan_.leading_integer("a normal number");
+    if (!has_point) {
+      if (bare_.empty()) bare_ = in_quotes(std::string_view(input_.bytes).substr(begin, scan_.at() - begin));
       return 0;
     }
-    const long long index = scan_.leading_integer("a texture vertex number");
     const auto count = static_cast<long long>(points.size() / 2);
     if (index == 0 || index < -count || index > std::numeric_limits<int>::max()) refuse_index(begin, index);
-    scan_.word();
     return static_cast<int>(index > 0 ? index - 1 : count + index);
   }
 

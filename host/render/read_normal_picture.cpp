@@ -20,7 +20,7 @@ namespace swage {
 namespace {
 
 constexpr unsigned long long kMostPixels = 1ULL << 26;
-constexpr int kHeader = 33;  // Bytes, the width at 16, the height at 20.
+constexpr size_t kSignature = 8, kHeader = 33;  // Bytes, the width at 16, the height at 20.
 
 struct Free {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
@@ -48,6 +48,23 @@ void convert(const Channel* pixels, NormalPicture& picture) {
   }
 }
 
+[[noreturn]] void refuse_damaged(const Input& input, const std::string& why) {
+  refuse(input, "is a damaged PNG file (" + why + "); export it again");
+}
+
+/// The decoder takes the memory that chunks say they need, and the size from wherever a header stands.
+void check_chunks(const Input& input) {
+  const std::string_view bytes = input.bytes;
+  if (bytes.size() < kHeader || bytes.substr(12, 4) != "IHDR") refuse_damaged(input, "it does not begin with a header");
+  constexpr size_t kAround = 12;  // Length and kind before a chunk, a sum after it.
+  for (size_t at = kSignature; bytes.size() - at >= kAround;) {
+    const size_t length = load<std::uint32_t>(&bytes[at], true);
+    if (length > bytes.size() - at - kAround) refuse_damaged(input, "it ends within a chunk");
+    if (bytes.substr(at + 4, 4) == "IEND") return;
+    at += kAround + length;
+  }
+}
+
 }  // namespace
 
 NormalPicture read_normal_picture(const std::filesystem::path& path) {
@@ -58,7 +75,7 @@ NormalPicture read_normal_picture(const std::filesystem::path& path) {
   }
   const auto* bytes = reinterpret_cast<const stbi_uc*>(input.bytes.data());
   const int size = static_cast<int>(input.bytes.size());
-  if (size < kHeader) refuse(input, "is a damaged PNG file (it ends in the header); export it again");
+  check_chunks(input);
   const auto width = load<std::uint32_t>(&input.bytes[16], true), height = load<std::uint32_t>(&input.bytes[20], true);
   if (1ULL * width * height > kMostPixels) {
     refuse(input, "has " + std::to_string(width) + " x " + std::to_string(height) +
@@ -70,8 +87,7 @@ NormalPicture read_normal_picture(const std::filesystem::path& path) {
     const auto pixels = decode(bytes, size, &picture.width, &picture.height, &channels, STBI_rgb_alpha);
     if (!pixels) {
       const char* reason = stbi_failure_reason();
-      refuse(input,
-             "is a damaged PNG file (" + std::string(reason == nullptr ? "unknown" : reason) + "); export it again");
+      refuse_damaged(input, reason == nullptr ? "unknown" : reason);
     }
     if (channels < 3) refuse(input, "is a grey picture; normals need red, green and blue: export it in colours");
     convert(pixels.get(), picture);

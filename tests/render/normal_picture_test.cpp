@@ -99,6 +99,11 @@ TEST_F(NormalPictures, OtherFilesAreRefusedInWords) {
   std::string huge = good;
   huge.replace(16, 8, std::string("\x00\x01\x00\x00\x00\x01\x00\x00", 8));
   expect_refused(huge, "make it smaller");
+  // A chunk of a gigabyte, it says, and one before the header.
+  std::string greedy = good;
+  greedy.replace(33, 4, std::string("\x3F\x00\x00\x00", 4));
+  expect_refused(greedy, "ends within a chunk");
+  expect_refused(good.substr(0, 8) + std::string("\0\0\0\0CgBI\0\0\0\0", 12) + good.substr(8), "damaged PNG");
   EXPECT_THROW(read_normal_picture(folder_ / "missing.png"), UnreadableFile);
   EXPECT_THROW(read_normal_picture(folder_.path()), UnreadableFile);
 }

@@ -70,8 +70,7 @@ void write_elsewhere(const MeshFile& file) {
 }  // namespace
 
 std::optional<MeshFile> use_mesh(const std::string& extension, std::string_view bytes) {
-  std::optional<MeshFile> file =
-      unless_refused<UnreadableFile>([&] { return read_mesh(file_of(extension, bytes)); });
+  std::optional<MeshFile> file = unless_refused<UnreadableFile>([&] { return read_mesh(file_of(extension, bytes)); });
   if (!file) return file;
   check_parts(*file);
   write_back(extension, *file, bytes);

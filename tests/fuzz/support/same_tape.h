@@ -18,7 +18,9 @@ inline bool same_instructions(const std::vector<TapeInstruction>& one, const std
 
 /// Constants to the bit: they may be infinite, and no numbers.
 inline bool same_tape(const Tape& one, const Tape& other) {
-  const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
   return one.parameter_count == other.parameter_count && one.root == other.root &&
          std::equal(one.constants.begin(), one.constants.end(), other.constants.begin(), other.constants.end(), same) &&
          same_instructions(one.setup, other.setup) && same_instructions(one.body, other.body);

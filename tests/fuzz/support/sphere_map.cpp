@@ -5,9 +5,7 @@
 namespace swage::fuzz {
 namespace {
 
-bool are_units(const Positions& all) {
-  return ((all.rowwise().norm().array() - 1).abs() < 1e-9).all();
-}
+bool are_units(const Positions& all) { return ((all.rowwise().norm().array() - 1).abs() < 1e-9).all(); }
 
 }  // namespace
 
