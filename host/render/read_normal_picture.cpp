@@ -56,12 +56,13 @@ void convert(const Channel* pixels, NormalPicture& picture) {
 void check_chunks(const Input& input) {
   const std::string_view bytes = input.bytes;
   if (bytes.size() < kHeader || bytes.substr(12, 4) != "IHDR") refuse_damaged(input, "it does not begin with a header");
-  constexpr size_t kAround = 12;  // Length and kind before a chunk, a sum after it.
-  for (size_t at = kSignature; bytes.size() - at >= kAround;) {
-    const size_t length = load<std::uint32_t>(&bytes[at], true);
-    if (length > bytes.size() - at - kAround) refuse_damaged(input, "it ends within a chunk");
+  constexpr size_t kBefore = 8, kAfter = 4;  // Of a chunk: its length and kind, and a sum.
+  size_t length = 0;
+  for (size_t at = kSignature; true; at += kBefore + length + kAfter) {
+    if (at + kBefore > bytes.size()) refuse_damaged(input, "it has no end");
+    length = load<std::uint32_t>(&bytes[at], true);
+    if (length > bytes.size() - at - kBefore) refuse_damaged(input, "it ends within a chunk");
     if (bytes.substr(at + 4, 4) == "IEND") return;
-    at += kAround + length;
   }
 }
 

@@ -103,6 +103,8 @@ TEST_F(NormalPictures, OtherFilesAreRefusedInWords) {
   std::string greedy = good;
   greedy.replace(33, 4, std::string("\x3F\x00\x00\x00", 4));
   expect_refused(greedy, "ends within a chunk");
+  expect_refused(good.substr(0, 33) + std::string("\x3F\x00\x00\x00IDAT\x78\x01", 10), "ends within a chunk");
+  expect_refused(good.substr(0, good.size() - 12), "has no end");
   expect_refused(good.substr(0, 8) + std::string("\0\0\0\0CgBI\0\0\0\0", 12) + good.substr(8), "damaged PNG");
   EXPECT_THROW(read_normal_picture(folder_ / "missing.png"), UnreadableFile);
   EXPECT_THROW(read_normal_picture(folder_.path()), UnreadableFile);
