@@ -1,6 +1,8 @@
 // Expressions of parameters, as template files hold them.
 #include "expression.h"
 
+#include <cmath>
+
 #include "cpu_steps.h"
 #include "fuzz.h"
 
