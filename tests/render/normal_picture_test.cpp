@@ -88,6 +88,12 @@ TEST_F(NormalPictures, SixteenBitsAndPalettesAreRead) {
   EXPECT_EQ(few.normals, (std::vector<float>{1, 0, 0, 1, 0, 0}));
 }
 
+TEST_F(NormalPictures, MayHaveChunksOfNoPixels) {
+  std::string bytes = png_bytes({1, 1}, "\xFF\x80\x7F");
+  bytes.insert(33, std::string("\0\0\0\0IDAT\x35\xAF\x06\x1E", 12));
+  EXPECT_EQ(read(bytes).normals, (std::vector<float>{1, 0, 0}));
+}
+
 TEST_F(NormalPictures, OtherFilesAreRefusedInWords) {
   const std::string good = png_bytes({40, 40}, std::string(4800, '\xFF'));
   expect_refused("", "is no PNG file");
