@@ -38,6 +38,12 @@ TEST(TextureCoordinates, AreOfTheCornersThatTheMeshHas) {
     EXPECT_EQ(read_texture_coordinates(file).triangles, Eigen::RowVector3i(0, 1, 2)) << face;
   }
   EXPECT_THAT(refusal_of("a.obj", kCorners + "vt 0 0\nf 1\\\n2/1 3/1\n"), HasSubstr("the corner '1' of a face"));
+  // Names of a group and of an object, and no faces.
+  const MeshFile file = read_bytes("a.obj", kCorners +
+                                                "vt 0 0\nvt 1 0\nvt 1 1\ng a \\\nf 1/1 2/2 3/3\no \\\nf 1/1 2/2 3/3\n"
+                                                "f 4/3 3/2 2/1\n");
+  ASSERT_EQ(file.polygons.size(), 1u);
+  EXPECT_EQ(read_texture_coordinates(file).triangles, Eigen::RowVector3i(2, 1, 0));
 }
 
 TEST(TextureCoordinates, FollowTheTrianglesOfPolygons) {
