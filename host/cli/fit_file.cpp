@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,12 +11,12 @@
 #include <set>
 
 #include "swage/error.h"
-#include "template_report.h"
 
 namespace swage::cli {
 namespace {
 
 constexpr double kRounding = 1e-6;  // By which a rotation may miss one.
+constexpr int kDeepest = 100;       // What is nested is written by functions that call themselves.
 
 /// An object in the file, whose keys are read strictly.
 class Reader {
@@ -68,13 +69,14 @@ class Reader {
   std::string file_, path_;
 };
 
-/// Refuses keys that are there twice: of such only one would count.
+/// Refuses what is nested too deep, and keys that are there twice: of such only one would count.
 class KeyWatch {
  public:
   explicit KeyWatch(const std::string& file) : file_(file) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
+    if (depth > kDeepest) throw UnreadableFile(file_ + ": brackets are nested too deep; mend it");
     if (event == Event::object_start) open_.emplace_back();
     if (event == Event::object_end) open_.pop_back();
     if (event == Event::key && !open_.back().insert(parsed.get<std::string>()).second) {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "report_json.h"
 #include "swage/mesh_io.h"
 #include "swage/template_fit.h"
+#include "template_json.h"
 
 namespace swage::cli {
 

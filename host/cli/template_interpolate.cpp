@@ -9,7 +9,7 @@
 #include "template.h"
 #include "template_choice.h"
 #include "template_editing.h"
-#include "template_report.h"
+#include "template_json.h"
 #include "template_surface.h"
 
 namespace swage::cli {

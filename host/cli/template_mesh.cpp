@@ -7,7 +7,7 @@
 #include "picture.h"
 #include "template.h"
 #include "template_choice.h"
-#include "template_report.h"
+#include "template_json.h"
 #include "template_surface.h"
 
 namespace swage::cli {

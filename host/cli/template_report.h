@@ -11,11 +11,6 @@ namespace swage::cli {
 /// A line a parameter: name, value, range, group and description.
 std::string table_of(const Template& of, const Eigen::VectorXd& values);
 
-/// An object with the values by their names.
-Json values_json(const Template& of, const Eigen::VectorXd& values);
-
-Json pose_json(const TemplatePose& pose);
-
 /// How far the template is off the mesh, and the parameters that stand at a bound.
 void add_fit_quality(Json& json, const Template& of, const TemplateFit& fit, std::vector<std::string>& warnings);
 

@@ -10,7 +10,7 @@
 #include "template_choice.h"
 #include "template_editing.h"
 #include "template_fitting.h"
-#include "template_report.h"
+#include "template_json.h"
 #include "template_surface.h"
 
 namespace swage::cli {

@@ -127,6 +127,7 @@ MeshFile finish(Input&& input, Draft&& draft) {
   source.normal_polygons = lists_from(static_cast<int>(source.normals.size()), draft.normal_users);
   source.vertex_count = draft.vertex_count();
   source.polygon_count = draft.polygons.size();
+  if (source.format == MeshFormat::obj) source.face_offsets = std::move(draft.polygon_offsets);
   source.bytes = std::move(input.bytes);
   file.polygons = std::move(draft.polygons);
   file.source = std::make_shared<const MeshSource>(std::move(source));

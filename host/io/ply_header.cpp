@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "scanner.h"
 
@@ -64,10 +65,10 @@ class HeaderReader {
     PlyElement element{std::string(next_word()), 0, {}, offset_};
     scan_.skip_blanks();
     element.count = scan_.integer("the number of elements");
-    for (const PlyElement& other : header_.elements) {
-      if (other.name == element.name)
-        refuse(input_, offset_, "element " + in_quotes(element.name) + " comes twice; export again");
+    if (!elements_.insert(element.name).second) {
+      refuse(input_, offset_, "element " + in_quotes(element.name) + " comes twice; export again");
     }
+    properties_.clear();
     header_.elements.push_back(std::move(element));
   }
 
@@ -83,9 +84,8 @@ class HeaderReader {
     }
     property.type = type(word);
     property.name = next_word();
-    for (const PlyProperty& other : header_.elements.back().properties) {
-      if (other.name == property.name)
-        refuse(input_, offset_, "property " + in_quotes(property.name) + " comes twice; export again");
+    if (!properties_.insert(property.name).second) {
+      refuse(input_, offset_, "property " + in_quotes(property.name) + " comes twice; export again");
     }
     header_.elements.back().properties.push_back(std::move(property));
   }
@@ -108,6 +108,7 @@ class HeaderReader {
   PlyHeader header_;
   size_t offset_ = 0;  // Of the line being read.
   bool has_format_ = false;
+  std::set<std::string> elements_, properties_;  // Names, of properties those of the last element.
 };
 
 }  // namespace

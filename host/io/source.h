@@ -20,6 +20,7 @@ struct MeshSource {
   bool facet_normals = false;  ///< Normals follow from their polygons alone (STL).
   int vertex_count = 0;
   size_t polygon_count = 0;
+  std::vector<size_t> face_offsets;  ///< Of each polygon the f statement (OBJ).
 };
 
 /// The file's bytes with other coordinates and normals.

@@ -10,10 +10,12 @@
 namespace swage {
 namespace {
 
-/// Reads once more what read_obj() found to be in order, faces of fewer than three corners left out as there.
+/// Reads once more what read_obj() found to be in order: the faces that it found, and no others. A line that begins with
+/// an f may be the rest of the line before.
 class TextureReader {
  public:
-  explicit TextureReader(const Input& input) : input_(input), scan_(input, text_begin(input)) {}
+  TextureReader(const Input& input, const std::vector<size_t>& face_offsets)
+      : input_(input), face_offsets_(face_offsets), scan_(input, text_begin(input)) {}
 
   void read() {
     while (!scan_.at_end()) {
@@ -35,7 +37,7 @@ class TextureReader {
     const size_t offset = scan_.at();
     const std::string_view keyword = scan_.word();
     if (keyword == "vt") return point();
-    if (keyword == "f") return face(offset);
+    if (polygons.size() < face_offsets_.size() && offset == face_offsets_[polygons.size()]) face(offset);
   }
 
   void point() {
@@ -51,28 +53,25 @@ class TextureReader {
     std::vector<int> corners;
     bare_.clear();
     while (!scan_.at_line_end()) corners.push_back(corner());
-    if (corners.size() < 3) return;
     if (missing_.empty() && !bare_.empty()) {
       missing_ = "the corner " + bare_ + " of a face has no texture coordinates; unwrap all of the mesh";
       missing_offset_ = offset;
     }
     polygons.push_back(std::move(corners));
-    offsets_.push_back(offset);
   }
 
   int corner() {
     const size_t begin = scan_.at();
     scan_.leading_integer("a vertex number");
-    if (!scan_.take('/') || !scan_.at_integer()) {
-      scan_.jump(begin);
-      const std::string_view corner = scan_.word();
-      if (bare_.empty()) bare_ = in_quotes(corner);
+    const bool has_point = scan_.take('/') && scan_.at_integer();
+    const long long index = has_point ? scan_.leading_integer("a texture vertex number") : 0;
+    if (scan_.take('/') && scan_.at_integer()) scan_.leading_integer("a normal number");
+    if (!has_point) {
+      if (bare_.empty()) bare_ = in_quotes(std::string_view(input_.bytes).substr(begin, scan_.at() - begin));
       return 0;
     }
-    const long long index = scan_.leading_integer("a texture vertex number");
     const auto count = static_cast<long long>(points.size() / 2);
     if (index == 0 || index < -count || index > std::numeric_limits<int>::max()) refuse_index(begin, index);
-    scan_.word();
     return static_cast<int>(index > 0 ? index - 1 : count + index);
   }
 
@@ -81,7 +80,7 @@ class TextureReader {
     const auto count = static_cast<int>(points.size() / 2);
     for (size_t p = 0; p < polygons.size(); ++p) {
       const int last = *std::max_element(polygons[p].begin(), polygons[p].end());
-      if (last >= count) refuse_index(offsets_[p], last + 1LL);
+      if (last >= count) refuse_index(face_offsets_[p], last + 1LL);
     }
   }
 
@@ -92,8 +91,8 @@ class TextureReader {
   }
 
   const Input& input_;
+  const std::vector<size_t>& face_offsets_;
   Scanner scan_;
-  std::vector<size_t> offsets_;
   std::string bare_;  // Of a face, a corner without.
   // The first such face, refused at the end: where there are none at all, the file is told of and not a line.
   std::string missing_;
@@ -108,7 +107,7 @@ TextureCoordinates read_texture_coordinates(const MeshFile& file) {
     refuse(input, "texture coordinates are read from .obj files only; export the mesh as one");
   }
   if (input.bytes.find('\n') == std::string::npos) input.newline = '\r';
-  TextureReader reader(input);
+  TextureReader reader(input, file.source->face_offsets);
   reader.read();
   TextureCoordinates result;
   const auto count = static_cast<Eigen::Index>(reader.points.size() / 2);

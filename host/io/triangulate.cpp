@@ -48,7 +48,8 @@ bool fan_is_right(const std::vector<Point>& points) {
 // A ring of the corners that are left, in their order.
 class Ears {
  public:
-  explicit Ears(std::vector<Point> points) : points_(std::move(points)), next_(points_.size()), back_(points_.size()) {
+  explicit Ears(std::vector<Point> points)
+      : points_(std::move(points)), next_(points_.size()), back_(points_.size()), within_(points_.size(), kNone) {
     for (size_t k = 0; k < points_.size(); ++k) {
       next_[k] = (k + 1) % points_.size();
       back_[next_[k]] = k;
@@ -65,6 +66,8 @@ class Ears {
         found(back_[k], k, next_[k]);
         next_[back_[k]] = next_[k];
         back_[next_[k]] = back_[k];
+        within_[back_[k]] = within_[next_[k]] = kNone;
+        within_[k] = kCut;
         --left;
         tried = 0;
       } else if (++tried == left && !crosses_itself) {
@@ -79,17 +82,24 @@ class Ears {
  private:
   bool is_convex(size_t k) const { return area(points_[back_[k]], points_[k], points_[next_[k]]) > 0; }
 
-  bool is_ear(size_t k) const {
+  bool is_ear(size_t k) {
     if (!is_convex(k)) return false;
+    // Asked again and again, of a long spiral once a corner that is cut.
+    if (within_[k] != kNone && within_[within_[k]] != kCut) return false;
     const Point &a = points_[back_[k]], &b = points_[k], &c = points_[next_[k]];
     for (size_t other = next_[next_[k]]; other != back_[k]; other = next_[other]) {
-      if (covers(a, b, c, points_[other])) return false;
+      if (!covers(a, b, c, points_[other])) continue;
+      within_[k] = other;
+      return false;
     }
     return true;
   }
 
+  static constexpr size_t kNone = static_cast<size_t>(-1), kCut = static_cast<size_t>(-2);
+
   std::vector<Point> points_;
   std::vector<size_t> next_, back_;
+  std::vector<size_t> within_;  // A corner known to be in the triangle of this one and those beside it.
 };
 
 void append_fan(const std::vector<int>& polygon, std::vector<int>& triangles) {

@@ -12,7 +12,7 @@ namespace swage {
 namespace {
 
 constexpr double kNoHeight = 1e-10;
-constexpr Eigen::Index kWorthThreads = 20000;
+[[maybe_unused]] constexpr Eigen::Index kWorthThreads = 20000;
 
 }  // namespace
 

@@ -20,7 +20,7 @@ namespace swage {
 namespace {
 
 constexpr unsigned long long kMostPixels = 1ULL << 26;
-constexpr int kHeader = 33;  // Bytes, the width at 16, the height at 20.
+constexpr size_t kSignature = 8, kHeader = 33;  // Bytes, the width at 16, the height at 20.
 
 struct Free {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
@@ -48,6 +48,29 @@ void convert(const Channel* pixels, NormalPicture& picture) {
   }
 }
 
+[[noreturn]] void refuse_damaged(const Input& input, const std::string& why) {
+  refuse(input, "is a damaged PNG file (" + why + "); export it again");
+}
+
+/// What the decoder is given. It takes the memory that chunks say they need, and the size from wherever a header
+/// stands; chunks of no pixels, which may be there and are left out, it would copy from none to nowhere.
+std::string checked_chunks(const Input& input) {
+  const std::string& bytes = input.bytes;
+  if (bytes.size() < kHeader || bytes.compare(12, 4, "IHDR") != 0) {
+    refuse_damaged(input, "it does not begin with a header");
+  }
+  constexpr size_t kBefore = 8, kAfter = 4;  // Of a chunk: its length and kind, and a sum.
+  std::string chunks = bytes.substr(0, kSignature);
+  for (size_t at = kSignature, length = 0; true; at += kBefore + length + kAfter) {
+    if (at + kBefore > bytes.size()) refuse_damaged(input, "it has no end");
+    length = load<std::uint32_t>(&bytes[at], true);
+    if (length > bytes.size() - at - kBefore) refuse_damaged(input, "it ends within a chunk");
+    const std::string kind = bytes.substr(at + 4, 4);
+    if (kind != "IDAT" || length > 0) chunks.append(bytes, at, kBefore + length + kAfter);
+    if (kind == "IEND") return chunks;
+  }
+}
+
 }  // namespace
 
 NormalPicture read_normal_picture(const std::filesystem::path& path) {
@@ -56,10 +79,10 @@ NormalPicture read_normal_picture(const std::filesystem::path& path) {
   if (input.bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
     refuse(input, "has more than 2^31 bytes; make the picture smaller");
   }
-  const auto* bytes = reinterpret_cast<const stbi_uc*>(input.bytes.data());
-  const int size = static_cast<int>(input.bytes.size());
-  if (size < kHeader) refuse(input, "is a damaged PNG file (it ends in the header); export it again");
-  const auto width = load<std::uint32_t>(&input.bytes[16], true), height = load<std::uint32_t>(&input.bytes[20], true);
+  const std::string chunks = checked_chunks(input);
+  const auto* bytes = reinterpret_cast<const stbi_uc*>(chunks.data());
+  const int size = static_cast<int>(chunks.size());
+  const auto width = load<std::uint32_t>(&chunks[16], true), height = load<std::uint32_t>(&chunks[20], true);
   if (1ULL * width * height > kMostPixels) {
     refuse(input, "has " + std::to_string(width) + " x " + std::to_string(height) +
                       " pixels; make it smaller, of 2^26 at most, such as 8192 x 8192");
@@ -70,8 +93,7 @@ NormalPicture read_normal_picture(const std::filesystem::path& path) {
     const auto pixels = decode(bytes, size, &picture.width, &picture.height, &channels, STBI_rgb_alpha);
     if (!pixels) {
       const char* reason = stbi_failure_reason();
-      refuse(input,
-             "is a damaged PNG file (" + std::string(reason == nullptr ? "unknown" : reason) + "); export it again");
+      refuse_damaged(input, reason == nullptr ? "unknown" : reason);
     }
     if (channels < 3) refuse(input, "is a grey picture; normals need red, green and blue: export it in colours");
     convert(pixels.get(), picture);

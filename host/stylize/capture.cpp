@@ -124,6 +124,10 @@ void fill_gaps(SphereMap& map, const char* remedy) {
       RowVector3d sum = RowVector3d::Zero();
       for (const int j : rings[i]) sum += known.row(j);
       map.normals.row(i) = sum.stableNormalized();
+      // Where they cancel, any of them.
+      for (const int j : rings[i]) {
+        if (is_gap(i)) map.normals.row(i) = known.row(j);
+      }
       grows = grows || !is_gap(i);
     }
   }

@@ -24,7 +24,7 @@ class Node {
   Scalar size(const char* key) { return above_zero(key, number(key)); }
   Scalar at_least_zero(const char* key) {
     const Scalar value = number(key, 0);
-    if (reader_.by_default(value) < 0) fields_.refuse(key, "is below 0 by default; make it 0 or more");
+    if (reader_.builder.by_default(value) < 0) fields_.refuse(key, "is below 0 by default; make it 0 or more");
     return is_nothing(value) ? value : max(value, 0);
   }
   Point point(const char* key) {
@@ -90,7 +90,7 @@ class Node {
     return reader_.number(fields_, indexed(key, i), value);
   }
   Scalar above_zero(const char* key, Scalar value) const {
-    if (!(reader_.by_default(value) > 0)) fields_.refuse(key, "is not above 0 by default; make it larger");
+    if (!(reader_.builder.by_default(value) > 0)) fields_.refuse(key, "is not above 0 by default; make it larger");
     return max(value, 1e-6);
   }
 

@@ -20,8 +20,6 @@ struct NodeReader {
   TapeBuilder& builder;
   /// A number or an expression of parameters. Throws UnreadableFile, naming the key in the fields.
   std::function<Scalar(const Fields& fields, const std::string& key, const Json& value)> number;
-  /// What it is while parameters have their defaults.
-  std::function<double(Scalar)> by_default;
   /// The node of that name.
   std::function<NodeShape(const Fields& fields, const std::string& key, const Json& id)> node;
 };

@@ -14,8 +14,8 @@ bool commutes(TapeOp op) {
 
 }  // namespace
 
-TapeBuilder::TapeBuilder(int parameter_count) : parameter_count_(parameter_count) {
-  for (int i = 0; i < parameter_count; ++i) add({Node::Kind::parameter, 0, {}, false});
+TapeBuilder::TapeBuilder(const std::vector<double>& defaults) : parameter_count_(static_cast<int>(defaults.size())) {
+  for (const double value : defaults) add({Node::Kind::parameter, value, {}, false});
   for (int axis = 0; axis < 3; ++axis) add({Node::Kind::coordinate, 0, {}, true});
 }
 
@@ -58,17 +58,11 @@ Scalar TapeBuilder::apply(TapeOp op, Scalar first, Scalar second) {
   if (const int simple = simplified(op, a, b); simple >= 0) return {this, simple};
   if (commutes(op) && a > b) std::swap(a, b);
   const auto [found, is_new] = made_.try_emplace({op, a, b}, 0);
-  if (is_new) found->second = add({Node::Kind::made, 0, {op, a, b}, node(a).of_point || node(b).of_point});
+  if (is_new) {
+    const double value = value_of(op, node(a).value, node(b).value);
+    found->second = add({Node::Kind::made, value, {op, a, b}, node(a).of_point || node(b).of_point});
+  }
   return {this, found->second};
-}
-
-double TapeBuilder::by_default(Scalar value, const std::vector<double>& parameters) const {
-  const Node& own = node(value.id);
-  if (own.kind == Node::Kind::constant) return own.value;
-  if (own.kind == Node::Kind::parameter) return parameters[static_cast<std::size_t>(value.id)];
-  const auto [op, a, b] = own.instruction;
-  return value_of(op, by_default(Scalar{value.builder, a}, parameters),
-                  by_default(Scalar{value.builder, b}, parameters));
 }
 
 Tape TapeBuilder::tape(Scalar root) const {

@@ -24,7 +24,8 @@ struct Scalar {
 /// Values that are made of the same ones alike are one; those of constants are constants.
 class TapeBuilder {
  public:
-  explicit TapeBuilder(int parameter_count);
+  /// `defaults`: of each parameter.
+  explicit TapeBuilder(const std::vector<double>& defaults);
   TapeBuilder(const TapeBuilder&) = delete;
   TapeBuilder& operator=(const TapeBuilder&) = delete;
 
@@ -35,7 +36,7 @@ class TapeBuilder {
   Scalar apply(TapeOp op, Scalar a, Scalar b);
 
   /// Of a value that does not depend on x, y and z.
-  double by_default(Scalar value, const std::vector<double>& parameters) const;
+  double by_default(Scalar value) const { return node(value.id).value; }
 
   /// Of what the root needs, in the order it was made.
   Tape tape(Scalar root) const;
@@ -43,7 +44,7 @@ class TapeBuilder {
  private:
   struct Node {
     enum class Kind { parameter, coordinate, constant, made } kind;
-    double value;  // Of constants.
+    double value;  // By default, where it is not of a point.
     TapeInstruction instruction;
     bool of_point;  // Whether it depends on x, y or z.
   };

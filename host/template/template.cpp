@@ -29,16 +29,20 @@ namespace {
 
 constexpr std::size_t kManyParameters = 256, kManyNodes = 4096;
 constexpr std::size_t kMostPlaces = 10'000;  // Of one node.
+// What is nested is read by functions that call themselves.
+constexpr int kDeepestJson = 100;
+constexpr std::size_t kDeepestNodes = 256;
 
 std::string path_in(const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
 
-/// Refuses keys that are there twice, which the parsed document no longer shows.
+/// Refuses what is nested too deep, and keys that are there twice, which the parsed document no longer shows.
 class KeyWatch {
  public:
   explicit KeyWatch(const std::string& file) : file_(file) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
+    if (depth > kDeepestJson) throw UnreadableFile(file_ + ": brackets are nested too deep; mend it");
     if (event == Event::object_start) open_.emplace_back();
     if (event == Event::object_end) open_.pop_back();
     if (event == Event::key && !open_.back().insert(parsed.get<std::string>()).second) {
@@ -115,30 +119,39 @@ class TemplateReader {
 
   Template read() {
     Fields top(content_->document, file_, "");
+    try {
+      return read(top);
+    } catch (const TapeTooLong&) {
+      top.refuse("nodes", "the template is too large: use fewer numbers, or fewer copies of copies");
+    }
+  }
+
+ private:
+  struct Known {
+    NodeShape shape;
+    std::size_t depth;  ///< Of nodes one below the other, itself the first.
+  };
+
+  Template read(Fields& top) {
     top.integer("version", 1, 1);
     content_->name = top.text("name");
     content_->description = top.text_or("description", "");
     content_->up = top.choice("up", {"x", "y", "z"}, "y")[0];
     read_parameters(top.list("parameters", 0, kManyParameters));
-    builder_.emplace(static_cast<int>(content_->parameters.size()));
+    builder_.emplace(defaults());
     const Json& nodes = top.list("nodes", 1, kManyNodes);
     list_nodes(nodes);
-    const NodeShape root = shape_of(top, "root", top.get("root"));
+    const NodeShape root = node_of(top, "root", top.get("root")).shape;
     if (root.is_flat) top.refuse("root", "is a flat shape; extrude or revolve it");
     top.end();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!shapes_.contains(i)) top.refuse(path_in("nodes", i), "nothing refers to it; remove it or use it");
+      if (!known_.contains(i)) top.refuse(path_in("nodes", i), "nothing refers to it; remove it or use it");
     }
-    try {
-      const Scalar field = root.shape({builder_->coordinate(0), builder_->coordinate(1), builder_->coordinate(2)});
-      content_->tape = builder_->tape(field);
-    } catch (const TapeTooLong&) {
-      top.refuse("nodes", "the template is too large: use fewer copies of copies");
-    }
+    const Scalar field = root.shape({builder_->coordinate(0), builder_->coordinate(1), builder_->coordinate(2)});
+    content_->tape = builder_->tape(field);
     return Template(content_);
   }
 
- private:
   void read_parameters(const Json& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       Fields fields(list[i], file_, path_in("parameters", i));
@@ -158,24 +171,33 @@ class TemplateReader {
     }
   }
 
-  NodeShape shape_of(const Fields& fields, const std::string& key, const Json& id) {
+  const Known& node_of(const Fields& fields, const std::string& key, const Json& id) {
     if (!id.is_string()) fields.refuse(key, "the id of a node is expected, not " + id.dump());
     const auto found = ids_.find(id.get<std::string>());
     if (found == ids_.end()) fields.refuse(key, "there is no node " + id.dump() + "; add it or name another");
     const std::size_t i = found->second;
-    if (const auto known = shapes_.find(i); known != shapes_.end()) return known->second;
+    if (const auto known = known_.find(i); known != known_.end()) return known->second;
     if (!open_.insert(i).second) fields.refuse(key, "node " + id.dump() + " refers back to itself; break the circle");
+    const auto require_depth = [&](std::size_t depth) {
+      if (depth > kDeepestNodes) fields.refuse(key, "more than 256 nodes are one within the other; use fewer");
+    };
+    require_depth(open_.size());
+    std::size_t below = 0;
+    const auto part = [&](const Fields& at, const std::string& name, const Json& value) {
+      const Known& found_part = node_of(at, name, value);
+      below = std::max(below, found_part.depth);
+      return found_part.shape;
+    };
     Fields own((*nodes_)[i], file_, path_in("nodes", i));
     own.text("id");
     const NodeReader reader = {
         *builder_,
-        [&](const Fields& at, const std::string& name, const Json& value) { return number(at, name, value); },
-        [&](Scalar value) { return builder_->by_default(value, defaults()); },
-        [&](const Fields& at, const std::string& name, const Json& value) { return shape_of(at, name, value); }};
+        [&](const Fields& at, const std::string& name, const Json& value) { return number(at, name, value); }, part};
     NodeShape shape = read_node(own, reader);
     shape.shape = once_at_each_place(std::move(shape.shape));
     open_.erase(i);
-    return shapes_.emplace(i, std::move(shape)).first->second;
+    require_depth(below + 1);
+    return known_.emplace(i, Known{std::move(shape), below + 1}).first->second;
   }
 
   Scalar number(const Fields& fields, const std::string& key, const Json& value) {
@@ -191,8 +213,7 @@ class TemplateReader {
         return builder_->parameter(found->second);
       };
       const Scalar result = parse_expression(value.get<std::string>(), *builder_, named);
-      if (!std::isfinite(builder_->by_default(result, defaults())))
-        fields.refuse(key, "is not finite by default; mend it");
+      if (!std::isfinite(builder_->by_default(result))) fields.refuse(key, "is not finite by default; mend it");
       return result;
     } catch (const ExpressionError& error) {
       fields.refuse(key, error.what);
@@ -211,7 +232,7 @@ class TemplateReader {
   std::map<std::string, int, std::less<>> numbers_;
   const Json* nodes_ = nullptr;
   std::map<std::string, std::size_t> ids_;
-  std::map<std::size_t, NodeShape> shapes_;
+  std::map<std::size_t, Known> known_;
   std::set<std::size_t> open_;
 };
 

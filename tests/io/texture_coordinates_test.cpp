@@ -29,6 +29,23 @@ Eigen::RowVector2d at(const TextureCoordinates& texture, Eigen::Index triangle, 
   return texture.points.row(texture.triangles(triangle, corner));
 }
 
+TEST(TextureCoordinates, AreOfTheCornersThatTheMeshHas) {
+  // Corners end where a line is continued and where a comment begins.
+  for (const char* const face :
+       {"f 1/1\\\n2/2\\\n3/3\n", "f 1/1/\\\n2/2/1 3/3# 4/1\n", "f 1/1 2/2/ 3/3/#x 1/2 4/1\n"}) {
+    const MeshFile file = read_bytes("a.obj", kCorners + "vt 0 0\nvt 1 0\nvt 1 1\n" + face);
+    ASSERT_EQ(file.polygons, (std::vector<std::vector<int>>{{0, 1, 2}})) << face;
+    EXPECT_EQ(read_texture_coordinates(file).triangles, Eigen::RowVector3i(0, 1, 2)) << face;
+  }
+  EXPECT_THAT(refusal_of("a.obj", kCorners + "vt 0 0\nf 1\\\n2/1 3/1\n"), HasSubstr("the corner '1' of a face"));
+  // Names of a group and of an object, and no faces.
+  const MeshFile file = read_bytes("a.obj", kCorners +
+                                                "vt 0 0\nvt 1 0\nvt 1 1\ng a \\\nf 1/1 2/2 3/3\no \\\nf 1/1 2/2 3/3\n"
+                                                "f 4/3 3/2 2/1\n");
+  ASSERT_EQ(file.polygons.size(), 1u);
+  EXPECT_EQ(read_texture_coordinates(file).triangles, Eigen::RowVector3i(2, 1, 0));
+}
+
 TEST(TextureCoordinates, FollowTheTrianglesOfPolygons) {
   // A face that is skipped, one that is cut in two, one counted back, and points after the faces that name them.
   const MeshFile file = read_bytes("a.obj", kCorners +

@@ -82,6 +82,19 @@ TEST(Triangulate, ConcavePolygonsAreCovered) {
   }
 }
 
+// One corner at a time can be cut, and a test of each corner for each would take minutes.
+TEST(Triangulate, ALongThinSpiralIsCovered) {
+  constexpr int kAlong = 4000;
+  std::vector<Eigen::Vector2d> spiral(2 * kAlong);
+  for (int k = 0; k < kAlong; ++k) {
+    const double angle = k * (10 * M_PI / kAlong);
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    spiral[static_cast<size_t>(k)] = (1.0001 + angle) * direction;
+    spiral[static_cast<size_t>(2 * kAlong - 1 - k)] = (1 + angle) * direction;
+  }
+  expect_covered(all_of(spiral.size()), tilted(spiral));
+}
+
 TEST(Triangulate, CornersInARowAndHolesWithABridge) {
   expect_covered(all_of(5), tilted({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}));
   // The outer square, the bridge to the inner one, which runs the other way, and back.

@@ -132,6 +132,15 @@ TEST(NormalCapture, SmallGapsAreFilledFromAround) {
   expect_refused([&] { normal_capture(discs(64), equirectangular); }, "has no normal");
 }
 
+/// Half way between opposite normals there is none, and around there they cancel.
+TEST(NormalCapture, GapsBetweenOppositeNormalsAreFilled) {
+  const NormalPicture picture = painted(8, 4, [](double x, double y) -> Vector3d {
+    return {0, 0, x == 3.5 && y == 0.5 ? -1.0 : 1.0};
+  });
+  const SphereMap map = normal_capture(picture, equirectangular);
+  EXPECT_NEAR((map.normals.rowwise().norm().array() - 1).abs().maxCoeff(), 0, 1e-12);
+}
+
 TEST(NormalCapture, OtherPicturesAreRefused) {
   const auto one = [](double, double) { return Vector3d(0, 0, 1); };
   expect_refused([&] { normal_capture(painted(64, 64, one), equirectangular); }, "twice as wide as high");

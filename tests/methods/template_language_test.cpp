@@ -128,6 +128,52 @@ TEST(TemplateFile, IsRefusedWhereItIsTooLarge) {
   EXPECT_THAT(refusal(file_of(kSize, nodes)), HasSubstr("too large"));
 }
 
+/// Numbers are too many to be kept as well.
+TEST(TemplateFile, IsRefusedWhereItHasTooManyNumbers) {
+  std::string nodes, ids;
+  for (int i = 0; i < 120; ++i) {
+    std::string corners;
+    for (int c = 0; c < 250; ++c) {
+      const int number = 2 * (250 * i + c);
+      corners += (c > 0 ? ", [" : "[") + std::to_string(number) + ", " + std::to_string(number + 1) + "]";
+    }
+    const std::string id = "\"n" + std::to_string(i) + "\"";
+    nodes += R"({"id": )" + id + R"(, "type": "polygon", "corners": [)" + corners + "]}, ";
+    ids += (i > 0 ? ", " : "") + id;
+  }
+  nodes += R"({"id": "flat", "type": "union", "of": [)" + ids + "]}, ";
+  EXPECT_THAT(refusal(file_of(kSize, nodes + R"({"id": "root", "type": "extrude", "of": "flat", "height": 1})")),
+              HasSubstr("nodes: the template is too large"));
+}
+
+/// Twice as many terms with each mix: they are counted once.
+TEST(TemplateExpression, MayBeNestedInItself) {
+  std::string text = "size";
+  for (int i = 0; i < 90; ++i) text = "mix(" + text + ", 0, 0.5)";
+  EXPECT_DOUBLE_EQ(expression(text), std::ldexp(2, -90));
+}
+
+/// What calls itself for what is nested must not run out of stack.
+TEST(TemplateFile, IsRefusedWhereItIsTooDeep) {
+  const std::string brackets = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  EXPECT_THAT(refusal(R"({"version": )" + brackets + "}"), HasSubstr("nested too deep"));
+  const auto chain = [](int count, int first) {
+    std::string nodes;
+    for (int i = first; i < first + count; ++i) {
+      nodes += R"({"id": "n)" + std::to_string(i) + R"(", "type": "offset", "by": 1, "of": "n)" +
+               std::to_string(i - 1) + R"("}, )";
+    }
+    return nodes;
+  };
+  const std::string ball = R"({"id": "n0", "type": "sphere", "radius": 1}, )";
+  const auto root = [](const std::string& of) { return R"({"id": "root", "type": "union", "of": [)" + of + "]}"; };
+  EXPECT_EQ(refusal(file_of(kSize, ball + chain(200, 1) + root("\"n200\""))), "");
+  EXPECT_THAT(refusal(file_of(kSize, ball + chain(4000, 1) + root("\"n4000\""))), HasSubstr("one within the other"));
+  // Each not deep beyond what is known already.
+  EXPECT_THAT(refusal(file_of(kSize, ball + chain(400, 1) + root("\"n200\", \"n400\""))),
+              HasSubstr("one within the other"));
+}
+
 TEST(TemplateFile, ComesBackAsItWas) {
   for (const std::string& name : shipped_templates()) {
     const Template made = shipped_template(name);

@@ -88,6 +88,12 @@ TEST_F(NormalPictures, SixteenBitsAndPalettesAreRead) {
   EXPECT_EQ(few.normals, (std::vector<float>{1, 0, 0, 1, 0, 0}));
 }
 
+TEST_F(NormalPictures, MayHaveChunksOfNoPixels) {
+  std::string bytes = png_bytes({1, 1}, "\xFF\x80\x7F");
+  bytes.insert(33, std::string("\0\0\0\0IDAT\x35\xAF\x06\x1E", 12));
+  EXPECT_EQ(read(bytes).normals, (std::vector<float>{1, 0, 0}));
+}
+
 TEST_F(NormalPictures, OtherFilesAreRefusedInWords) {
   const std::string good = png_bytes({40, 40}, std::string(4800, '\xFF'));
   expect_refused("", "is no PNG file");
@@ -99,6 +105,13 @@ TEST_F(NormalPictures, OtherFilesAreRefusedInWords) {
   std::string huge = good;
   huge.replace(16, 8, std::string("\x00\x01\x00\x00\x00\x01\x00\x00", 8));
   expect_refused(huge, "make it smaller");
+  // A chunk of a gigabyte, it says, and one before the header.
+  std::string greedy = good;
+  greedy.replace(33, 4, std::string("\x3F\x00\x00\x00", 4));
+  expect_refused(greedy, "ends within a chunk");
+  expect_refused(good.substr(0, 33) + std::string("\x3F\x00\x00\x00IDAT\x78\x01", 10), "ends within a chunk");
+  expect_refused(good.substr(0, good.size() - 12), "has no end");
+  expect_refused(good.substr(0, 8) + std::string("\0\0\0\0CgBI\0\0\0\0", 12) + good.substr(8), "damaged PNG");
   EXPECT_THROW(read_normal_picture(folder_ / "missing.png"), UnreadableFile);
   EXPECT_THROW(read_normal_picture(folder_.path()), UnreadableFile);
 }
