@@ -10,8 +10,8 @@
 namespace swage {
 namespace {
 
-/// Reads once more what read_obj() found to be in order: the faces that it found, and no others. A line that begins with
-/// an f may be the rest of the line before.
+/// Reads once more what read_obj() found to be in order: the faces that it found, and no others. A line that begins
+/// with an f may be the rest of the line before.
 class TextureReader {
  public:
   TextureReader(const Input& input, const std::vector<size_t>& face_offsets)
