@@ -16,6 +16,8 @@ foreach(helper IN LISTS helpers)
 endforeach()
 file(GLOB pages ${source}/README.md ${source}/host/*/README.md)
 run(${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/pages.py ${place}/pages ${place}/installed/bin ${pages})
+# For other vectors than the library, by which Eigen would align otherwise.
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${place}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_FLAGS=-march=native
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${place}/installed -DPAGES=${place}/pages)
 run(${CMAKE_COMMAND} --build ${place}/build)
