@@ -1,5 +1,4 @@
 #include "swage/remesh.h"
-#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "by_place.h"
 #include "distinct.h"
 #include "measures.h"
+#include "messages.h"
 #include "remesher.h"
 #include "swage/error.h"
 

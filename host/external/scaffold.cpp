@@ -1,5 +1,4 @@
 #include "swage/scaffold.h"
-#include "messages.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "by_place.h"
 #include "distinct.h"
 #include "intersections.h"
+#include "messages.h"
 #include "swage/error.h"
 #include "tetrahedra.h"
 

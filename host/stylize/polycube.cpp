@@ -1,5 +1,4 @@
 #include "swage/polycube.h"
-#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "alternate.h"
 #include "element_normals.h"
+#include "messages.h"
 #include "place_and_size.h"
 #include "plan.h"
 #include "targets.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "by_place.h"
+#include <optional>
+#include <vector>
 
 namespace swage {
 namespace {
@@ -38,18 +38,16 @@ std::vector<char> vertices_of(const StylizePlan& plan, const std::vector<char>& 
   return vertices;
 }
 
-/// Least angle around a vertex that is at `place`; below 0 where a triangle turns over.
-double least_around(const StylizePlan& plan, const Positions& positions, int v, const RowVector3d& place) {
+/// Least angle around a vertex; below 0 where a triangle turned over since `before`.
+double least_around(const StylizePlan& plan, const Positions& before, const Positions& now, int v) {
   double least = std::numbers::pi;
   for (const int t : plan.triangles_around[v]) {
-    const Matrix3d before = positions(plan.mesh.triangles.row(t), Eigen::all);
-    Matrix3d corners = before;
-    for (int k = 0; k < 3; ++k) {
-      if (plan.mesh.triangles(t, k) == v) corners.row(k) = place;
-    }
+    const auto corners = [&](const Positions& positions) -> Matrix3d {
+      return positions(plan.mesh.triangles.row(t), Eigen::all);
+    };
     const auto normal = [](const Matrix3d& c) { return (c.row(1) - c.row(0)).cross(c.row(2) - c.row(0)).eval(); };
-    if (normal(before).dot(normal(corners)) < 0) return -1;
-    least = std::min(least, least_angle_of(corners));
+    if (normal(corners(before)).dot(normal(corners(now))) < 0) return -1;
+    least = std::min(least, least_angle_of(corners(now)));
   }
   return least;
 }
@@ -78,6 +76,41 @@ RowVector3d to_neighbours(const StylizePlan& plan, const Positions& positions, i
     }
   }
   return sum / count;
+}
+
+struct Step {
+  int vertex;
+  RowVector3d place;
+  double least;  ///< Angle around it before.
+};
+
+/// Towards the neighbours, where that alone makes the least angle larger. `now` is `before`, and is so again.
+std::optional<Step> best_step(const StylizePlan& plan, const Positions& targets, const Positions& before, int v,
+                              Positions& now) {
+  Step step{v, before.row(v), least_around(plan, before, before, v)};
+  const RowVector3d whole = along_targets(plan, targets, v, kPull * to_neighbours(plan, before, v));
+  for (const double part : {1.0, 0.5, 0.25}) {
+    now.row(v) = before.row(v) + part * whole;
+    if (least_around(plan, before, now, v) <= step.least) continue;
+    step.place = now.row(v);
+    now.row(v) = before.row(v);
+    return step;
+  }
+  now.row(v) = before.row(v);
+  return std::nullopt;
+}
+
+/// All at once, so that no order counts; those that the others spoil go back.
+void take(const StylizePlan& plan, const Positions& before, std::vector<Step>& steps, Positions& positions) {
+  for (const Step& step : steps) positions.row(step.vertex) = step.place;
+  while (true) {
+    const auto spoilt = std::partition(steps.begin(), steps.end(), [&](const Step& step) {
+      return least_around(plan, before, positions, step.vertex) > step.least;
+    });
+    if (spoilt == steps.end()) return;
+    for (auto step = spoilt; step != steps.end(); ++step) positions.row(step->vertex) = before.row(step->vertex);
+    steps.erase(spoilt, steps.end());
+  }
 }
 
 }  // namespace
@@ -113,23 +146,18 @@ void hold_back(const StylizePlan& plan, const std::vector<char>& is_fixed, doubl
 
 void relax(const StylizePlan& plan, const std::vector<char>& is_fixed, const Positions& targets, Positions& positions) {
   std::vector<char> is_thin(static_cast<size_t>(plan.mesh.triangles.rows()));
-  const std::vector<int> order = by_place(positions);  // Each sees those moved before.
   for (int round = 0; round < kRounds; ++round) {
     for (Index t = 0; t < plan.mesh.triangles.rows(); ++t) {
       is_thin[static_cast<size_t>(t)] = least_angle_of(plan, positions, t) < kThin ? 1 : 0;
     }
-    const std::vector<char> is_moved = vertices_of(plan, is_thin);
-    for (const int v : order) {
-      if (is_moved[static_cast<size_t>(v)] == 0 || is_fixed[static_cast<size_t>(v)] != 0) continue;
-      const double least = least_around(plan, positions, v, positions.row(v));
-      const RowVector3d step = along_targets(plan, targets, v, kPull * to_neighbours(plan, positions, v));
-      for (const double part : {1.0, 0.5, 0.25}) {
-        const RowVector3d place = positions.row(v) + part * step;
-        if (least_around(plan, positions, v, place) <= least) continue;
-        positions.row(v) = place;
-        break;
-      }
+    const std::vector<char> is_drawn = vertices_of(plan, is_thin);
+    const Positions before = positions;
+    std::vector<Step> steps;
+    for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+      if (is_drawn[static_cast<size_t>(v)] == 0 || is_fixed[static_cast<size_t>(v)] != 0) continue;
+      if (const std::optional<Step> step = best_step(plan, targets, before, v, positions)) steps.push_back(*step);
     }
+    take(plan, before, steps, positions);
   }
 }
 

@@ -5,7 +5,7 @@
 
 static_assert(EIGEN_DEFAULT_ALIGN_BYTES == 0 || EIGEN_MALLOC_ALREADY_ALIGNED,
               "A matrix made on one side of Swage's border is freed on the other, so both must allocate alike: link "
-              "swage::swage with CMake, or define EIGEN_MAX_ALIGN_BYTES=16");
+              "swage::swage with CMake, or define EIGEN_MAX_ALIGN_BYTES=16 and EIGEN_MALLOC_ALREADY_ALIGNED=1");
 
 #pragma GCC visibility push(default)
 namespace swage {

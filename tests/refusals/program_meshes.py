@@ -121,6 +121,8 @@ row(STYLIZE + '--capture a.ply', 'a sphere without normals',
 row(STYLIZE + '--capture a.ply', 'a triangle', {'a.ply': ply_with_normals()})
 row(STYLIZE + '--capture a.png', 'no PNG', {'a.png': 'text'})
 row(STYLIZE + '--capture a.png', 'cut short', {'a.png': png(8, 4)[:20]})
+row(STYLIZE + '--capture a.png', 'cut short in its pixels', {'a.png': png(8, 4)[:45]})
+row(STYLIZE + '--capture a.png', 'without its last chunk', {'a.png': png(8, 4)[:-12]})
 row(STYLIZE + '--capture a.png', 'damaged', {'a.png': png(8, 4, damaged=True)})
 row(STYLIZE + '--capture a.png', 'grey', {'a.png': png(8, 4, channels=1)})
 row(STYLIZE + '--capture a.png', 'too large', {'a.png': png(20000, 10000)})

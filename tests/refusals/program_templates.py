@@ -9,7 +9,7 @@ row('template show missing.json')
 row('template mesh stool -o r.obj')
 row('template fit cube.obj --template stool --json r.json')
 for title, content in (
-        ('no JSON', '{'), ('no object', '[]'), ('a number beyond double precision', '{"version": 1e999}'),
+        ('no JSON', '{'), ('no object', '[]'), ('101 brackets', '[' * 101 + ']' * 101), ('a number beyond double precision', '{"version": 1e999}'),
         ('a key twice', '{"version": 1, "version": 1}'), ('another version', template(version=2)),
         ('no name', template(name='left out')), ('a name that is a number', template(name=1)),
         ('no root', template(root='left out')),
@@ -29,6 +29,9 @@ for title, content in (
         ('a node that nothing refers to',
          template([{'id': 'root', 'type': 'sphere', 'radius': 1}, {'id': 'idle', 'type': 'sphere', 'radius': 1}])),
         ('a node that refers to itself', template([{'id': 'root', 'type': 'shell', 'of': 'root', 'thickness': 0.1}])),
+        ('257 nodes, one within the other',
+         template([{'id': 'root' if i == 0 else f'n{i}', 'type': 'shell', 'of': f'n{i + 1}', 'thickness': 0.1}
+                   for i in range(256)] + [{'id': 'n256', 'type': 'sphere', 'radius': 1}])),
         ('a node of a number', template([{'id': 'root', 'type': 'shell', 'of': 1, 'thickness': 0.1}])),
         ('a root that is flat', template([{'id': 'root', 'type': 'circle', 'radius': 1}])),
         ('a radius of 0', sphere(0)), ('a radius that is a list', sphere([1])),
@@ -107,7 +110,7 @@ def broken(**more):
 
 
 for title, content in (
-        ('no JSON', '{\n'), ('no object', '[]'), ('a key twice', '{"pose": 1, "pose": 1}'),
+        ('no JSON', '{\n'), ('no object', '[]'), ('101 brackets', '[' * 101 + ']' * 101), ('a key twice', '{"pose": 1, "pose": 1}'),
         ('a number beyond double precision', '{"pose": 1e999}'),
         ('no template_document', broken(template_document='left out')),
         ('a template_document that is none', broken(template_document={})),
