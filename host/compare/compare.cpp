@@ -1,5 +1,4 @@
 #include "swage/compare.h"
-#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "changes.h"
 #include "measures.h"
+#include "messages.h"
 #include "parts.h"
 #include "swage/diagnose.h"
 #include "swage/error.h"

@@ -1,10 +1,10 @@
 #include "swage/curvature.h"
-#include "messages.h"
 
 #include <numbers>
 #include <string>
 
 #include "measures.h"
+#include "messages.h"
 #include "neighbourhoods.h"
 #include "pieces.h"
 #include "swage/error.h"

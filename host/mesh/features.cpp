@@ -1,5 +1,4 @@
 #include "swage/features.h"
-#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "adjacency.h"
+#include "messages.h"
 #include "swage/error.h"
 
 namespace swage {

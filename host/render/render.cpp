@@ -1,5 +1,4 @@
 #include "swage/render.h"
-#include "messages.h"
 
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "layout.h"
 #include "lines.h"
 #include "marks.h"
+#include "messages.h"
 #include "swage/error.h"
 #include "text.h"
 

@@ -1,5 +1,4 @@
 #include "assemble.h"
-#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "axis_assembly.h"
 #include "folds.h"
+#include "messages.h"
 #include "pool.h"
 #include "swage/error.h"
 

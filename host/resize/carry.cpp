@@ -1,6 +1,6 @@
 #include "carry.h"
-#include "messages.h"
 
+#include "messages.h"
 #include "swage/error.h"
 
 namespace swage {

@@ -1,10 +1,10 @@
 #include "grid.h"
-#include "messages.h"
 
 #include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "messages.h"
 #include "swage/error.h"
 
 namespace swage {

@@ -1,11 +1,11 @@
 #include "scales.h"
-#include "messages.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "bounded.h"
 #include "correction.h"
+#include "messages.h"
 #include "pool.h"
 #include "scale_levels.h"
 #include "swage/error.h"
