@@ -27,7 +27,7 @@ TemplateEditResult told(const EditPlan& plan, double seconds, TemplateEditResult
   report.seconds["precompute"] = plan.prepare_seconds;
   report.seconds["solve"] = seconds;
   if (report.stop != Termination::cancelled) {
-    const auto flat = static_cast<int>(std::count(plan.is_flat.begin(), plan.is_flat.end(), 1));
+    const auto flat = static_cast<int>(std::count(plan.whole_is_flat.begin(), plan.whole_is_flat.end(), 1));
     warn_of_shape({plan.counts, plan.edges, flat, plan.components}, report);
   }
   return result;

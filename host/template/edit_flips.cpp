@@ -14,13 +14,13 @@ constexpr double kLeast = 1e-3;  // and in the end: what is not held at all drif
 
 }  // namespace
 
-std::vector<int> flipped(const EditPlan& plan) {
-  const Positions before = area_vectors(plan.elements.pairs.vertices, plan.mesh.triangles),
-                  after = area_vectors(plan.positions, plan.mesh.triangles);
-  const Transforms maps = matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps);
+std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat) {
+  const Positions before = area_vectors(plan.elements.pairs.vertices, triangles),
+                  after = area_vectors(plan.positions, triangles);
+  const Transforms maps = matrices_of_triangles(plan.elements, triangles, plan.maps);
   std::vector<int> found;
   for (Index t = 0; t < before.rows(); ++t) {
-    if (plan.is_flat[static_cast<size_t>(t)] != 0) continue;
+    if (is_flat[static_cast<size_t>(t)] != 0) continue;
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(maps.row(t).data());
     Eigen::Matrix3d cofactors;
     cofactors << map.row(1).cross(map.row(2)), map.row(2).cross(map.row(0)), map.row(0).cross(map.row(1));

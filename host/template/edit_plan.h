@@ -4,9 +4,10 @@
 //   sum over vertices v and the edges (u, w) around them of c |d_w - d_u - J_v (w - u) + (w' - u')|²   (paper eq. 10)
 //   + sum over vertices of m_v (a_v . d_v - (f_v - f'(v')) / |grad f'|)²                               (eq. 8)
 // with the maps J_v of the local_map step, which take the mesh's rest normal to that now, and a_v the mean of the
-// directions of grad f' and J_v grad f. Normals now are those that leave the first sum least, near the mesh's. The
-// field's, or the mesh's alone, are not what the sum asks for: where those bend within less than an edge, or triangles
-// are slivers, each pass would turn them farther than the vertices that they move.
+// directions of grad f' and J_v grad f. Long edges have been split: corners of a box are on its surface wherever its
+// sides go, and only what lies amid the sides is told of it. Normals now are those that leave the first sum least, near
+// the mesh's. The field's, or the mesh's alone, are not what the sum asks for: where those bend within less than an
+// edge, or triangles are slivers, each pass would turn them farther than the vertices that they move.
 #pragma once
 
 #include <memory>
@@ -47,7 +48,9 @@ struct EditPlan {
   TemplateEditOptions options;
   EditMaps kind = EditMaps::stretched;
   std::optional<Given> given = {};  ///< Where what follows is not as given.
-  Mesh mesh = {};                   ///< In the template's space.
+  Mesh mesh = {};                   ///< In the template's space, long edges split,
+  Triangles whole = {};             ///< and its triangles before, of the first vertices,
+  Eigen::Index whole_count = 0;     ///< so many.
   SurfaceCounts counts = {};
   UnitBox box = {};
   Edges edges = {};
@@ -61,11 +64,12 @@ struct EditPlan {
   LaplacianSystem system = {};
   std::unique_ptr<HeldLaplacian> about = {};  ///< The laplacian and a part of all tracking weights, factored.
   HeldPoints about_points = {};
-  Eigen::VectorXd rest_values = {};  ///< f_v
-  Positions rest_gradients = {};     ///< grad f / |grad f|
-  Positions rest_normals = {};       ///< Of the mesh.
-  Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
-  std::vector<char> is_flat = {};    ///< A triangle each.
+  Eigen::VectorXd rest_values = {};      ///< f_v
+  Positions rest_gradients = {};         ///< grad f / |grad f|
+  Positions rest_normals = {};           ///< Of the mesh.
+  Eigen::VectorXd weights = {};          ///< m_v of vertices at which the field is known.
+  std::vector<char> is_flat = {};        ///< A triangle each,
+  std::vector<char> whole_is_flat = {};  ///< and before edges were split.
   int components = 1;
   std::string told_components = "one";
   double prepare_seconds = 0;
@@ -112,8 +116,8 @@ bool move_as_whole(EditPlan& plan);
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
 // edit_flips.cpp
-/// Triangles that face against where their corners' maps take their rest normal, but those that were flat at rest.
-std::vector<int> flipped(const EditPlan& plan);
+/// Of `triangles` those that face against where their corners' maps take their rest normal, but those flat at rest.
+std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat);
 /// What the template asks of the vertices as many rings around them they cannot do: they go with their neighbours.
 void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings);
 

@@ -10,6 +10,7 @@
 #include "join.h"
 #include "matrices.h"
 #include "preparation.h"
+#include "split_edges.h"
 #include "spokes_and_rims.h"
 #include "stopwatch.h"
 #include "swage/error.h"
@@ -21,6 +22,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr double kLongest = 0.05;            // Of D: longer edges are split.
 constexpr double kReach = 0.01;              // Of D: what is smaller follows its surroundings rather than the template.
 constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
 constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
@@ -81,6 +83,7 @@ void make(EditPlan& plan, const ProgressFn& progress) {
   plan.field = plan.of.field(backend);
   sign(plan, unit_mesh);
   plan.is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
+  plan.whole_is_flat = flat_triangles(unit_mesh.positions, plan.whole);
   const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
   plan.components = 1 + *std::max_element(component.begin(), component.end());
   preparation.begin("components", 0);
@@ -134,8 +137,12 @@ std::unique_ptr<EditPlan> plan_of(const Template& of, const Eigen::VectorXd& sou
   plan->box = unit_box(surface.mesh.positions);
   plan->diagonal = diagonal / plan->box.extent;
   plan->mesh = std::move(surface.mesh);
-  plan->edges = std::move(surface.edges);
   check_finite(*plan);
+  plan->whole = plan->mesh.triangles;
+  plan->whole_count = plan->mesh.positions.rows();
+  plan->mesh = split_long_edges(plan->mesh, kLongest * diagonal);
+  const bool is_split = plan->mesh.positions.rows() > plan->whole_count;
+  plan->edges = is_split ? edges_of(plan->mesh.triangles) : std::move(surface.edges);
   return plan;
 }
 

@@ -118,7 +118,8 @@ void settle(EditPlan& plan, Report& report, const One& one) {
     ++since;
     const bool stands = report.movements.back() < plan.options.tolerance * plan.diagonal;
     if (!stands && since < kPatience) continue;
-    const std::vector<int> over = releases < kReleases ? flipped(plan) : std::vector<int>();
+    const std::vector<int> over =
+        releases < kReleases ? flipped(plan, plan.mesh.triangles, plan.is_flat) : std::vector<int>();
     if (stands && over.empty()) {
       report.stop = Termination::moved_little;
       return;
@@ -186,15 +187,15 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
 TemplateEditResult result_of(EditPlan& plan, const VectorXd& target, Report report) {
   TemplateEditResult result;
   track(plan, target);
-  const Eigen::ArrayXd off = plan.tracking.gaps.array().abs() / plan.diagonal;
+  const Index count = plan.whole_count;
+  const Eigen::ArrayXd off = plan.tracking.gaps.head(count).array().abs() / plan.diagonal;
   result.residual = off.mean();
   result.largest = off.maxCoeff();
-  result.flipped = static_cast<int>(flipped(plan).size());
-  result.released = static_cast<int>((plan.trust.array() < 1).count());
-  const Positions placed = plan.box.back(plan.positions);
+  result.flipped = static_cast<int>(flipped(plan, plan.whole, plan.whole_is_flat).size());
+  result.released = static_cast<int>((plan.trust.head(count).array() < 1).count());
+  const Positions placed = plan.box.back(plan.positions.topRows(count));
   result.positions = plan.pose.back(
-      plan.given ? plan.given->back(placed, matrices_of_triangles(plan.elements, plan.mesh.triangles, plan.maps))
-                 : placed);
+      plan.given ? plan.given->back(placed, matrices_of_triangles(plan.elements, plan.whole, plan.maps)) : placed);
   result.report = std::move(report);
   return result;
 }

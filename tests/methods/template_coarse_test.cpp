@@ -1,0 +1,36 @@
+// Meshes whose vertices alone say little: all of a box's corners lie on its template wherever its sides go.
+#include <gtest/gtest.h>
+
+#include "shapes.h"
+#include "swage/template_edit.h"
+
+namespace swage::test {
+namespace {
+
+class CornersAlone : public testing::TestWithParam<double> {};
+
+TEST_P(CornersAlone, FollowTheirTemplate) {
+  const Template of = shipped_template("box");
+  const Mesh cube = box({1, 1, 1}, 1);
+  Mesh centred = cube;
+  centred.positions.rowwise() -= cube.positions.colwise().mean();
+  Eigen::VectorXd parameters = of.defaults();
+  parameters[of.parameter("rounding")] = GetParam();
+  TemplateEdit edit(of, parameters, {}, centred.positions, centred.triangles);
+  Eigen::VectorXd wider = parameters;
+  wider[of.parameter("width")] = 1.5;
+  const TemplateEditResult result = edit.solve(wider);
+  const Eigen::RowVector3d size = result.positions.colwise().maxCoeff() - result.positions.colwise().minCoeff();
+  EXPECT_NEAR(size[0], 1.5, 0.02);
+  EXPECT_NEAR(size[1], 1, 0.01);
+  EXPECT_NEAR(size[2], 1, 0.01);
+  EXPECT_EQ(result.positions.rows(), cube.positions.rows());
+  EXPECT_EQ(result.flipped, 0);
+  EXPECT_LT(result.residual, 5e-4);
+}
+
+// Sharp, the field's slope at corners is that of one of three sides.
+INSTANTIATE_TEST_SUITE_P(Rounded, CornersAlone, testing::Values(0, 1e-5, 0.02));
+
+}  // namespace
+}  // namespace swage::test
