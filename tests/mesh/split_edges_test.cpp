@@ -27,10 +27,10 @@ TEST_P(SplitEdges, KeepTheSurface) {
   EXPECT_EQ(fine.positions.topRows(coarse.positions.rows()), coarse.positions);
   // Of the box: its area, its volume by the divergence theorem, and Euler's characteristic.
   const Positions areas = area_vectors(fine.positions, fine.triangles);
-  EXPECT_NEAR(areas.rowwise().norm().sum(), 7, 1e-12);
+  EXPECT_NEAR(areas.rowwise().norm().sum() / 2, 7, 1e-12);
   double volume = 0;
   for (Eigen::Index t = 0; t < areas.rows(); ++t) {
-    volume += fine.positions.row(fine.triangles(t, 0)).dot(areas.row(t)) / 3;
+    volume += fine.positions.row(fine.triangles(t, 0)).dot(areas.row(t)) / 6;
   }
   EXPECT_NEAR(volume, 1, 1e-12);
   const Edges edges = edges_of(fine.triangles);
