@@ -2,7 +2,6 @@
 // ours that it calls, errors of its own that we catch.
 #include <cstdio>
 #include <cstdlib>
-#include <utility>
 
 #include "swage/backend.h"
 #include "swage/error.h"
@@ -26,7 +25,7 @@ void matrices() {
     made_there.positions.bottomRows(1).setZero();
     Eigen::MatrixXd by_columns = made_there.positions;
     require(swage::box_diagonal(by_columns) > 1, "a box of matrices by columns");
-    made_there.positions = std::move(swage::prism(3).positions);
+    made_there.positions = swage::prism(3).positions;
     require(made_there.positions.rows() == 6, "a matrix moved across");
   }
 }
@@ -42,7 +41,7 @@ void callbacks() {
   require(result.report.stop == swage::Termination::cancelled, "a progress of ours that cancels");
 
   const swage::Template ball =
-      swage::template_of("ball", {{"radius", 1, 0.5, 2}},
+      swage::template_of("ball", {{"radius", "", "", 1, 0.5, 2}},
                          [](const swage::Positions& points, const Eigen::VectorXd& parameters,
                             Eigen::VectorXd& values) { values = points.rowwise().norm().array() - parameters[0]; });
   swage::TemplateEdit edit(ball, ball.defaults(), {}, sphere.positions, sphere.triangles);
