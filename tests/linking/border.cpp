@@ -2,6 +2,7 @@
 // ours that it calls, errors of its own that we catch.
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "swage/backend.h"
 #include "swage/error.h"
@@ -58,13 +59,13 @@ void errors() {
     caught = true;
   }
   require(caught, "its error by its type");
-  caught = swage::opencl_devices().empty();
+  caught = false;
   try {
-    swage::opencl_backend();
-  } catch (const swage::Unavailable&) {
+    swage::opencl_backend("no such device");
+  } catch (const std::runtime_error&) {  // not in this build, or no such device
     caught = true;
   }
-  require(caught, "the error of a part that is left out");
+  require(caught, "an error by its base");
 }
 
 }  // namespace
