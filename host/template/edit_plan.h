@@ -80,7 +80,7 @@ struct EditPlan {
   Eigen::VectorXd parameters = {};
   Positions positions = {};
   Transforms maps = {};
-  Eigen::VectorXd trust = {};  ///< Parts of m_v: less around triangles that turned over.
+  Eigen::VectorXd trust = {};  ///< Parts of m_v: less where the template asks for what the mesh cannot do.
   double growth = 1;           ///< Of the template as a whole: what lies off its surface grows along.
   Tracking tracking = {};
   GradientsWork<Eigen::VectorXd> work = {};
@@ -115,17 +115,20 @@ bool move_as_whole(EditPlan& plan);
 /// nothing has moved, where it is not.
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
-// edit_flips.cpp
+// edit_trust.cpp
 /// Of `triangles` those that face against where their corners' maps take their rest normal, but those flat at rest.
 std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat);
 /// What the template asks of the vertices as many rings around them they cannot do: they go with their neighbours.
 void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings);
+/// Likewise of vertices that now are on another side of the template than with the last pass's `gradients`: where it
+/// has become thinner than they lie deep in it, there is no place that it asks for.
+void distrust_opposed(EditPlan& plan, const Positions& gradients);
 
 // follow.cpp
 /// Of conjugate gradients in a pass: until the mesh stands still, and while it is dragged.
 constexpr int kSettling = 15, kDragging = 6;
-/// Moves the mesh by one pass, and returns how far it moved a vertex at most.
-double pass(EditPlan& plan, const Eigen::VectorXd& parameters, int iterations);
+/// Moves the mesh by one pass, `part` of the way, and returns how far it moved a vertex at most.
+double pass(EditPlan& plan, const Eigen::VectorXd& parameters, int iterations, double part = 1);
 /// From where the mesh is to the target until it stands still.
 Report advance(EditPlan& plan, const Eigen::VectorXd& target, const ProgressFn& progress);
 /// Where the mesh is.

@@ -24,6 +24,7 @@ constexpr double kSolved = 1e-4;  // Part of the error that ends conjugate gradi
 constexpr int kWindow = 3;        // Passes that the next start is made of.
 constexpr int kPatience = 50;     // Passes until triangles that turned over are looked at,
 constexpr int kReleases = 16;     // and how often they are released.
+constexpr double kAway = 5;       // Steps that they go together at least, unless they go to and fro.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
 Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
@@ -82,7 +83,7 @@ double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
 }
 
 /// By what tracking holds.
-void place(EditPlan& plan, int iterations) {
+void place(EditPlan& plan, int iterations, double part) {
   fit_maps(plan);
   const VectorXd right = residual(plan);
   VectorXd moved = VectorXd::Zero(right.size());
@@ -92,7 +93,7 @@ void place(EditPlan& plan, int iterations) {
     rows(e) = plan.about->solve(rows(r), plan.about_points);
   };
   conjugate_gradients(times, precondition, right, kSolved, iterations, moved, plan.work);
-  plan.positions += rows(moved);
+  plan.positions += part * rows(moved);
 }
 
 /// Goes with a sub-edit as its begin has it: past that, what moves by half of its thickness would be told of its other
@@ -102,30 +103,42 @@ void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
   const VectorXd gaps = plan.tracking.gaps;
   track(plan, from + kBegin * (to - from));
   plan.tracking.gaps = gaps + (plan.tracking.gaps - gaps) / kBegin;
-  if (!move_as_whole(plan)) place(plan, kSettling);
+  if (!move_as_whole(plan)) place(plan, kSettling, 1);
 }
 
-/// Passes at the target, by `one`, until the mesh stands still with no triangle turned over, or there are enough.
+/// Passes at the target, by `one`, until the mesh stands still with no triangle turned over, or there are enough. Where
+/// it comes no closer it goes to and fro across a crease of the field, whose slope leaps there: steps grow smaller.
 template <typename One>
 void settle(EditPlan& plan, Report& report, const One& one) {
   std::optional<Anderson> acceleration(kWindow);
-  Positions start;
+  Positions start, before;  // Of the last pass, and of as many as are waited for.
+  double step = 1;
   int releases = 0, since = 0;
   while (report.passes < plan.options.passes) {
     if (since > 0) plan.positions = acceleration->next(start, plan.positions);
+    if (since % kPatience == 0) before = plan.positions;
     start = plan.positions;
-    one();
+    const Positions gradients = plan.tracking.gradients;
+    one(step);
     ++since;
-    const bool stands = report.movements.back() < plan.options.tolerance * plan.diagonal;
-    if (!stands && since < kPatience) continue;
+    distrust_opposed(plan, gradients);
+    const double moved = report.movements.back();
+    const bool stands = moved < plan.options.tolerance * plan.diagonal;
+    if (!stands && since % kPatience != 0) continue;
     const std::vector<int> over =
         releases < kReleases ? flipped(plan, plan.mesh.triangles, plan.is_flat) : std::vector<int>();
     if (stands && over.empty()) {
       report.stop = Termination::moved_little;
       return;
     }
-    if (over.empty()) continue;
-    distrust(plan, over, releases++ / 3);
+    if (!over.empty()) {
+      distrust(plan, over, releases++ / 3);
+      step = 1;
+    } else if ((plan.positions - before).rowwise().norm().maxCoeff() < kAway * moved / step) {
+      step /= 2;
+    } else {
+      continue;
+    }
     since = 0;
     acceleration.emplace(kWindow);
   }
@@ -133,12 +146,12 @@ void settle(EditPlan& plan, Report& report, const One& one) {
 
 }  // namespace
 
-double pass(EditPlan& plan, const VectorXd& parameters, int iterations) {
+double pass(EditPlan& plan, const VectorXd& parameters, int iterations, double part) {
   const Positions before = plan.positions;
   track(plan, parameters);
   for (int i = 0; i < kWholeMoves && move_as_whole(plan); ++i) track(plan, parameters);
   plan.parameters = parameters;
-  place(plan, iterations);
+  place(plan, iterations, part);
   return (plan.positions - before).rowwise().norm().maxCoeff();
 }
 
@@ -150,9 +163,9 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
     const double done = static_cast<double>(report.passes) / plan.options.passes;
     if (progress && !progress({"pass", report.passes, plan.options.passes, done, 0})) throw Cancelled();
   };
-  const auto one = [&](double part) {
+  const auto one = [&](double part, double step) {
     tell();
-    report.movements.push_back(pass(plan, along(part), kSettling));
+    report.movements.push_back(pass(plan, along(part), kSettling, step));
     ++report.passes;
   };
   FieldValues field;
@@ -174,9 +187,9 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
       foresee(plan, along(at), along(next));
       at = next;
       ++sub_edits;
-      for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at);
+      for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at, 1);
     }
-    settle(plan, report, [&] { one(1); });
+    settle(plan, report, [&](double step) { one(1, step); });
   } catch (const Cancelled&) {
     report.stop = Termination::cancelled;
   }

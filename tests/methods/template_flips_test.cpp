@@ -1,4 +1,4 @@
-// Triangles that turn over while they follow a template (host/template/edit_flips.cpp), and what keeps passes steady.
+// Triangles that turn over while they follow a template (host/template/edit_trust.cpp), and what keeps passes steady.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -73,6 +73,39 @@ TEST(TemplateFlips, PassesCalmWhatWasDisturbed) {
   EXPECT_LT(last, 0.02 * first);
   EXPECT_LT((plan->positions - rest).rowwise().norm().maxCoeff(), 5e-4 * plan->diagonal);
   EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+}
+
+// A sheet deeper in a box than that will be thick: there is no place for it.
+TEST(TemplateFlips, LetsGoOfWhatIsToldOfBothSides) {
+  const Template of = shipped_template("box");
+  const Mesh outside = box({1, 1, 1}, 6);
+  Mesh mesh = joined(outside, transformed(sheet(4), 0.6, {0.2, 0.2, 0.65}));
+  mesh.positions.array() -= 0.5;
+  TemplateEdit edit(of, of.defaults(), {}, mesh.positions, mesh.triangles);
+  Eigen::VectorXd thinner = of.defaults();
+  thinner[of.parameter("depth")] = 0.5;
+  const TemplateEditResult result = edit.solve(thinner);
+  EXPECT_EQ(result.report.stop, Termination::moved_little);
+  EXPECT_LT(result.report.passes, 600);
+  EXPECT_GT(result.released, 0);
+  EXPECT_EQ(result.flipped, 0);
+  const Eigen::VectorXd z = result.positions.col(2);
+  const Index count = outside.positions.rows();
+  EXPECT_NEAR(z.head(count).maxCoeff(), 0.26, 0.01);
+  EXPECT_NEAR(z.head(count).minCoeff(), -0.26, 0.01);
+  EXPECT_LT(z.tail(z.size() - count).cwiseAbs().maxCoeff(), 0.2);
+}
+
+TEST(TemplateFlips, TrustsAllElse) {
+  const auto plan = plate(6);
+  track(*plan, plan->source);
+  Positions gradients = plan->tracking.gradients;
+  distrust_opposed(*plan, gradients);
+  EXPECT_EQ(plan->trust.minCoeff(), 1);
+  gradients.row(7) *= -1;
+  distrust_opposed(*plan, gradients);
+  EXPECT_LT(plan->trust[7], 1);
+  EXPECT_EQ((plan->trust.array() < 1).count(), 1);
 }
 
 }  // namespace

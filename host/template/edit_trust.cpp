@@ -1,4 +1,4 @@
-// Triangles that turn over: there the template asks for what the mesh cannot do.
+// Where the template asks for what the mesh cannot do.
 #include <algorithm>
 
 #include "edit_plan.h"
@@ -9,8 +9,10 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kTrust = 0.1;   // Part of the tracking that is left, each time,
-constexpr double kLeast = 1e-3;  // and in the end: what is not held at all drifts away.
+constexpr double kTrust = 0.1;     // Part of the tracking that is left, each time, around triangles that turned over,
+constexpr double kLeast = 1e-3;    // and in the end: what is not held at all drifts away.
+constexpr double kOpposed = -0.5;  // Cosine of a gradient and the last pass's there: the template's other side.
+constexpr double kTold = 0.3;      // Part that is left, each time, of what is told of both sides by turns.
 
 }  // namespace
 
@@ -44,6 +46,13 @@ void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings) {
   }
   for (Index v = 0; v < plan.trust.size(); ++v) {
     if (reached[static_cast<size_t>(v)] != 0) plan.trust[v] = std::max(kLeast, kTrust * plan.trust[v]);
+  }
+}
+
+void distrust_opposed(EditPlan& plan, const Positions& gradients) {
+  for (Index v = 0; v < plan.trust.size(); ++v) {
+    if (gradients.row(v).dot(plan.tracking.gradients.row(v)) < kOpposed)
+      plan.trust[v] = std::max(kLeast, kTold * plan.trust[v]);
   }
 }
 
