@@ -83,7 +83,13 @@ TEST_P(ClosestNormalStepBy, FindsEachOfItsOwn) {
   if (!backend_) return;
   const Positions normals = none_apart(10000);
   const Eigen::VectorXi closest = find(normals, normals);
-  for (Index n = 0; n < normals.rows(); ++n) ASSERT_EQ(closest[n], n);
+  for (Index n = 0; n < normals.rows(); ++n) {
+    if (test::sees_rounded(*backend_)) {
+      ASSERT_GE(normals.row(closest[n]).dot(normals.row(n)), 1 - kRounding);
+    } else {
+      ASSERT_EQ(closest[n], n);
+    }
+  }
 }
 
 TEST_P(ClosestNormalStepBy, TakesTheFirstOfSeveralEquallyNear) {

@@ -209,6 +209,7 @@ in_single::Mat3 single9(const Eigen::Matrix<double, 1, 9>& m) {
 TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
   const auto backend = test::opencl_or_skip(Precision::single);
   if (!backend) return;
+  if (test::sees_rounded(*backend)) GTEST_SKIP() << "a GPU's functions round as they like";
   const TransformStep::Rest rest = rest_of(test::torus());
   const Edges edges = edges_of(rest.triangles);
   const Input input = input_for(rest, 5);

@@ -23,4 +23,8 @@ std::shared_ptr<Backend> opencl_or_skip(Precision precision) {
   }
 }
 
+bool sees_rounded(const Backend& backend) {
+  return backend.precision() == Precision::single && opencl_devices().front().kind != "cpu";
+}
+
 }  // namespace swage::test
