@@ -3,11 +3,13 @@
 // How a step (opencl_steps.h) uses it:
 //   Queue queue_;                                      // one a step, made from the shared context
 //   Reals rest_{queue_, rest.vertices};                // static data goes up once
-//   Reals result_{queue_, count * 9};
+//   HostRows positions_{queue_, vertices * 3}, result_{queue_, count * 9};  // what a call brings (host_rows.h)
 //   Kernel fit_{queue_, "rotation", "fit_rotations"};  // kernels/rotation.cl; (const int count, ...) its arguments
-//   positions_.upload(positions);
+//   const Visit visit(queue_, {&positions_, &result_});
+//   positions_.show(positions);
+//   result_.lend(rotations);
 //   fit_.launch(count, rest_, positions_, 0.5, result_);
-//   result_.download(rotations);
+//   result_.take_back(rotations);
 #pragma once
 
 #include <atomic>

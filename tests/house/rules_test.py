@@ -45,6 +45,9 @@ LIBRARIES = {
 }
 OURS = r"Eigen/|unsupported/Eigen/|omp\.h|unistd\.h|fcntl\.h|poll\.h|signal\.h|spawn\.h|stdlib\.h|sys/|[a-z_]+>"
 
+# Public headers of which a shared library has nothing to show.
+ALL_INLINE = ["thrown.h"]
+
 
 def folder_of(path):
     parts = path.relative_to(SOURCES).parts
@@ -88,6 +91,21 @@ class Text(unittest.TestCase):
                         folder = folder_of(path).removesuffix("_off")
                         self.assertEqual(breaches(folder, text, kernels), [])
         self.assertGreater(count, 300)
+
+    def test_knows_every_folder(self):
+        folders = {f"host/{path.parent.name}" for path in SOURCES.glob("host/*/CMakeLists.txt")}
+        self.assertEqual({folder for folder in folders if not folder.endswith("_off")}, SEES.keys() - {"cpu_ref"})
+
+    def test_shows_what_public_headers_declare(self):
+        """Else it is hidden in shared libraries."""
+        for path in sorted(SOURCES.glob("include/swage/*.h")):
+            if path.name in ALL_INLINE:
+                continue
+            with self.subTest(path=path.name):
+                self.assertRegex(
+                    path.read_text(encoding="utf-8"),
+                    r"(?s)\n#pragma GCC visibility push\(default\)\nnamespace swage \{\n.*\n#pragma GCC visibility pop\n$",
+                )
 
     def test_is_seen_to_break_them(self):
         for folder, line in (
