@@ -52,6 +52,7 @@ void put_in_order(Distinct& surface, Positions& points) {
   surface.triangles = std::move(mesh.triangles);
   const auto put = [](std::vector<int>& numbers, const std::vector<int>& order) {
     std::vector<int> result;
+    result.reserve(order.size());
     for (const int i : order) result.push_back(numbers[static_cast<size_t>(i)]);
     numbers = std::move(result);
   };
@@ -127,6 +128,7 @@ void leave_out(Task& task, const std::vector<int>& crossing, std::vector<int>& l
 [[noreturn]] void refuse_crossing(const Task& task, const std::vector<int>& crossing) {
   constexpr size_t kNamed = 10;
   std::vector<int> triangles;
+  triangles.reserve(crossing.size());
   for (const int t : crossing) triangles.push_back(task.surface.originals.at(static_cast<size_t>(t)));
   std::sort(triangles.begin(), triangles.end());
   std::string text = "scaffold: triangles ";

@@ -56,9 +56,9 @@ void Given::list_loose(const Mesh& surface) {
     Loose loose{v, {}};
     for (const Foot& foot : tree.all_nearest(point.transpose(), tolerance)) {
       const Eigen::RowVector3i corners = surface.triangles.row(foot.triangle);
-      LooseFoot& at = loose.feet.emplace_back(foot.triangle, std::array{corners[0], corners[1], corners[2]},
-                                              foot.barycentric, point);
+      LooseFoot at{foot.triangle, {corners[0], corners[1], corners[2]}, foot.barycentric, point};
       for (int k = 0; k < 3; ++k) at.offset -= foot.barycentric[k] * surface.positions.row(corners[k]);
+      loose.feet.push_back(at);
     }
     loose_.push_back(std::move(loose));
   }

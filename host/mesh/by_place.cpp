@@ -36,7 +36,7 @@ void begin_with_first(Triangles& triangles) {
 
 Positions rounded(const Positions& points) {
   constexpr double kLattice = 0x1p-40;
-  const Positions result = (points / kLattice).array().round() * kLattice;
+  Positions result = (points / kLattice).array().round() * kLattice;
   const std::vector<int> order = by_place(result);
   for (size_t i = 1; i < order.size(); ++i) {
     if (result.row(order[i]) == result.row(order[i - 1])) return points;
