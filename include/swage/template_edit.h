@@ -31,15 +31,17 @@ struct TemplateEditResult {
   double residual = 0;  ///< Mean over vertices of |f'(v') - f(v)| / |grad f'|, as a part of D.
   double largest = 0;   ///< The largest, likewise.
   int flipped = 0;      ///< Triangles whose normal turned against that of the template's map; none that were flat.
-  int released = 0;     ///< Vertices around triangles that turned over, which follow their neighbours instead.
+  /// Vertices that follow their neighbours instead: around triangles that turned over, or told of two sides by turns.
+  int released = 0;
   Report report;
 };
 
 struct EditPlan;  ///< What is kept of a mesh between edits.
 
-/// A mesh that follows a template which was fitted to it. Prepared once, with the template as it lies at rest; then
-/// moved again and again. What is found depends on the parameters asked for, not on those asked for before, but for
-/// follow().
+/// A mesh that follows a template which was fitted to it, by edges of a twentieth of D at most (longer ones are split
+/// meanwhile: corners alone would tell nothing of a box's sides). Prepared once, with the template as it lies at rest;
+/// then moved again and again. What is found depends on the parameters asked for, not on those asked for before, but
+/// for follow().
 class TemplateEdit {
  public:
   /// `source`: the parameters with which the template lies in the mesh, and `pose` where (template_fit.h).
