@@ -106,6 +106,7 @@ using Combine = Shape (*)(const std::vector<Shape>&, Scalar);
 NodeShape combined(Node& node, Combine combine) {
   std::vector<Shape> shapes;
   const std::vector<NodeShape> parts = node.parts(1, kManyParts);
+  shapes.reserve(parts.size());
   for (const NodeShape& part : parts) shapes.push_back(part.shape);
   return {combine(shapes, node.at_least_zero("radius")), parts[0].is_flat};
 }
@@ -113,7 +114,7 @@ NodeShape combined(Node& node, Combine combine) {
 using ReadNode = NodeShape (*)(Node&);
 
 const std::map<std::string, ReadNode>& types() {
-  static const std::map<std::string, ReadNode> all = {
+  static const std::map<std::string, ReadNode> kTypes = {
       {"sphere", [](Node& n) { return body(sphere(n.size("radius"))); }},
       {"ellipsoid", [](Node& n) { return body(ellipsoid(n.sizes("radii"))); }},
       {"box", [](Node& n) { return body(box(n.sizes("size"), n.at_least_zero("rounding"))); }},
@@ -190,7 +191,7 @@ const std::map<std::string, ReadNode>& types() {
          return body(shear(n.body(), axis, along, n.number("amount")));
        }},
   };
-  return all;
+  return kTypes;
 }
 
 }  // namespace
