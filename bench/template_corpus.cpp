@@ -88,6 +88,7 @@ void edit(const Template& of, const TemplateFit& fit, const Mesh& mesh, Fitted& 
                                     {"flipped", result.flipped},
                                     {"passes", result.report.passes},
                                     {"stop", to_string(result.report.stop)},
+                                    {"paths", result.report.paths},
                                     {"seconds", result.report.seconds.at("solve")}});
     std::printf("    %-13s %7.3f %6.2f %5d flipped %5d passes (%s) %6.2f s\n", one.parameter.c_str(),
                 100 * result.residual, 100 * result.largest, result.flipped, result.report.passes,

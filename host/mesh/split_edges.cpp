@@ -1,5 +1,7 @@
 #include "split_edges.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "adjacency.h"
@@ -36,26 +38,40 @@ void split(const Positions& positions, const Corners& corners, const Corners& mi
   }
 }
 
+/// The longest edges of those longer than `longest` whose halving makes no more than `more` triangles, in order.
+std::vector<int> longest_edges(const Positions& positions, const Edges& edges, double longest, Index more) {
+  std::vector<std::pair<double, int>> all;
+  for (int e = 0; e < edges.vertices.rows(); ++e) {
+    const auto ends = edges.vertices.row(e);
+    const double length = (positions.row(ends[0]) - positions.row(ends[1])).norm();
+    if (length > longest) all.emplace_back(-length, e);
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<int> found;
+  for (const auto& [length, e] : all) {
+    more -= static_cast<Index>(edges.triangles[e].size());
+    if (more < 0) break;
+    found.push_back(e);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
-Mesh split_long_edges(const Mesh& mesh, double longest) {
+Mesh split_long_edges(const Mesh& mesh, double longest, Index most) {
   Mesh result = mesh;
   while (true) {
     const Edges edges = edges_of(result.triangles);
+    const std::vector<int> halved = longest_edges(result.positions, edges, longest, most - result.triangles.rows());
+    if (halved.empty()) return result;
     Eigen::VectorXi middles = Eigen::VectorXi::Constant(edges.vertices.rows(), -1);
-    const Index before = result.positions.rows();
-    Index count = before;
-    for (Index e = 0; e < middles.size(); ++e) {
+    Index middle = result.positions.rows();
+    result.positions.conservativeResize(middle + static_cast<Index>(halved.size()), 3);
+    for (const int e : halved) {
       const auto ends = edges.vertices.row(e);
-      const double length = (result.positions.row(ends[0]) - result.positions.row(ends[1])).norm();
-      if (length > longest) middles[e] = static_cast<int>(count++);
-    }
-    if (count == before) return result;
-    result.positions.conservativeResize(count, 3);
-    for (Index e = 0; e < middles.size(); ++e) {
-      if (middles[e] < 0) continue;
-      const auto ends = edges.vertices.row(e);
-      result.positions.row(middles[e]) = (result.positions.row(ends[0]) + result.positions.row(ends[1])) / 2;
+      result.positions.row(middle) = (result.positions.row(ends[0]) + result.positions.row(ends[1])) / 2;
+      middles[e] = static_cast<int>(middle++);
     }
     std::vector<Corners> triangles;
     for (Index t = 0; t < result.triangles.rows(); ++t) {

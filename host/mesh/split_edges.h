@@ -5,7 +5,8 @@
 
 namespace swage {
 
-/// Halves edges, and so the triangles beside them, until none is longer. Vertices that there are come first.
-Mesh split_long_edges(const Mesh& mesh, double longest);
+/// Halves edges, and so the triangles beside them, the longest first, until none is longer or more triangles would be
+/// more than `most`. Vertices that there are come first.
+Mesh split_long_edges(const Mesh& mesh, double longest, Eigen::Index most);
 
 }  // namespace swage

@@ -15,7 +15,8 @@ namespace {
 
 TemplateEditResult cancelled(const EditPlan& plan) {
   TemplateEditResult result;
-  result.positions = plan.pose.back(plan.given ? plan.given->mesh().positions : plan.mesh.positions);
+  result.positions =
+      plan.pose.back(plan.given ? plan.given->mesh().positions : plan.mesh.positions.topRows(plan.unsplit.vertices));
   result.report.stop = Termination::cancelled;
   return result;
 }
@@ -24,11 +25,12 @@ TemplateEditResult cancelled(const EditPlan& plan) {
 TemplateEditResult told(const EditPlan& plan, double seconds, TemplateEditResult result) {
   Report& report = result.report;
   report.paths["components"] = plan.told_components;
+  report.paths["edges"] = plan.told_edges;
   report.seconds["precompute"] = plan.prepare_seconds;
   report.seconds["solve"] = seconds;
   if (report.stop != Termination::cancelled) {
-    const auto flat = static_cast<int>(std::count(plan.whole_is_flat.begin(), plan.whole_is_flat.end(), 1));
-    warn_of_shape({plan.counts, plan.edges, flat, plan.components}, report);
+    const auto flat = static_cast<int>(std::count(plan.unsplit.is_flat.begin(), plan.unsplit.is_flat.end(), 1));
+    warn_of_shape({plan.counts, plan.unsplit.edges, flat, plan.components}, report);
   }
   return result;
 }

@@ -32,6 +32,14 @@ constexpr double kNoSlope = 1e-6;  // Of |grad f|: below, the field tells nothin
 /// closest rotations.
 enum class EditMaps { stretched, rotated };
 
+/// The mesh before its edges were split, whose vertices are the first ones since.
+struct Unsplit {
+  Eigen::Index vertices = 0;
+  Triangles triangles = {};
+  Edges edges = {};
+  std::vector<char> is_flat = {};  ///< A triangle each.
+};
+
 /// What a pass follows, a row or entry a vertex.
 struct Tracking {
   FieldValues field;        ///< In the unit box, whose unit its values have.
@@ -48,12 +56,12 @@ struct EditPlan {
   TemplateEditOptions options;
   EditMaps kind = EditMaps::stretched;
   std::optional<Given> given = {};  ///< Where what follows is not as given.
-  Mesh mesh = {};                   ///< In the template's space, long edges split,
-  Triangles whole = {};             ///< and its triangles before, of the first vertices,
-  Eigen::Index whole_count = 0;     ///< so many.
+  Mesh mesh = {};                   ///< In the template's space, long edges split.
+  Edges edges = {};
+  std::string told_edges = {};
+  Unsplit unsplit = {};
   SurfaceCounts counts = {};
   UnitBox box = {};
-  Edges edges = {};
   double diagonal = 0;  ///< D in the unit box, of the mesh as given.
 
   // Filled by prepare().
@@ -64,12 +72,11 @@ struct EditPlan {
   LaplacianSystem system = {};
   std::unique_ptr<HeldLaplacian> about = {};  ///< The laplacian and a part of all tracking weights, factored.
   HeldPoints about_points = {};
-  Eigen::VectorXd rest_values = {};      ///< f_v
-  Positions rest_gradients = {};         ///< grad f / |grad f|
-  Positions rest_normals = {};           ///< Of the mesh.
-  Eigen::VectorXd weights = {};          ///< m_v of vertices at which the field is known.
-  std::vector<char> is_flat = {};        ///< A triangle each,
-  std::vector<char> whole_is_flat = {};  ///< and before edges were split.
+  Eigen::VectorXd rest_values = {};  ///< f_v
+  Positions rest_gradients = {};     ///< grad f / |grad f|
+  Positions rest_normals = {};       ///< Of the mesh.
+  Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
+  std::vector<char> is_flat = {};    ///< A triangle each.
   int components = 1;
   std::string told_components = "one";
   double prepare_seconds = 0;

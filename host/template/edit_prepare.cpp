@@ -23,6 +23,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kLongest = 0.05;            // Of D: longer edges are split.
+constexpr int kMostMore = 50000;             // Triangles by splitting: it is there for meshes of few.
 constexpr double kReach = 0.01;              // Of D: what is smaller follows its surroundings rather than the template.
 constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
 constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
@@ -83,7 +84,7 @@ void make(EditPlan& plan, const ProgressFn& progress) {
   plan.field = plan.of.field(backend);
   sign(plan, unit_mesh);
   plan.is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
-  plan.whole_is_flat = flat_triangles(unit_mesh.positions, plan.whole);
+  plan.unsplit.is_flat = flat_triangles(unit_mesh.positions, plan.unsplit.triangles);
   const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
   plan.components = 1 + *std::max_element(component.begin(), component.end());
   preparation.begin("components", 0);
@@ -122,6 +123,14 @@ void check_finite(const EditPlan& plan) {
   }
 }
 
+void split_edges(EditPlan& plan, double longest, Edges edges) {
+  plan.unsplit = {plan.mesh.positions.rows(), plan.mesh.triangles, std::move(edges)};
+  plan.mesh = split_long_edges(plan.mesh, longest, plan.mesh.triangles.rows() + kMostMore);
+  const Index more = plan.mesh.positions.rows() - plan.unsplit.vertices;
+  plan.edges = more > 0 ? edges_of(plan.mesh.triangles) : plan.unsplit.edges;
+  plan.told_edges = more > 0 ? "split while it follows, by " + std::to_string(more) + " vertices" : "as given";
+}
+
 }  // namespace
 
 std::unique_ptr<EditPlan> plan_of(const Template& of, const Eigen::VectorXd& source, const TemplatePose& pose,
@@ -138,11 +147,7 @@ std::unique_ptr<EditPlan> plan_of(const Template& of, const Eigen::VectorXd& sou
   plan->diagonal = diagonal / plan->box.extent;
   plan->mesh = std::move(surface.mesh);
   check_finite(*plan);
-  plan->whole = plan->mesh.triangles;
-  plan->whole_count = plan->mesh.positions.rows();
-  plan->mesh = split_long_edges(plan->mesh, kLongest * diagonal);
-  const bool is_split = plan->mesh.positions.rows() > plan->whole_count;
-  plan->edges = is_split ? edges_of(plan->mesh.triangles) : std::move(surface.edges);
+  split_edges(*plan, kLongest * diagonal, std::move(surface.edges));
   return plan;
 }
 

@@ -22,9 +22,11 @@ constexpr int kWholeMoves = 5;    // Of a pass.
 constexpr double kBegin = 0.02;   // Of a sub-edit.
 constexpr double kSolved = 1e-4;  // Part of the error that ends conjugate gradients.
 constexpr int kWindow = 3;        // Passes that the next start is made of.
+constexpr int kStill = 5;         // Passes in a row that move little: accelerated, one may do so by chance.
 constexpr int kPatience = 50;     // Passes until triangles that turned over are looked at,
 constexpr int kReleases = 16;     // and how often they are released.
-constexpr double kAway = 5;       // Steps that they go together at least, unless they go to and fro.
+constexpr double kAway = 5;       // Steps that they go together at least, unless they go to and fro,
+constexpr int kParts = 64;        // and are then as many parts of what passes ask for, at most.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
 Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
@@ -112,18 +114,22 @@ template <typename One>
 void settle(EditPlan& plan, Report& report, const One& one) {
   std::optional<Anderson> acceleration(kWindow);
   Positions start, before;  // Of the last pass, and of as many as are waited for.
-  double step = 1;
-  int releases = 0, since = 0;
+  int parts = 1, releases = 0, since = 0, still = 0;
+  const auto tell = [&] {
+    report.paths["steps"] = parts == 1 ? "whole" : "1/" + std::to_string(parts) + " in the end";
+  };
+  tell();
   while (report.passes < plan.options.passes) {
     if (since > 0) plan.positions = acceleration->next(start, plan.positions);
     if (since % kPatience == 0) before = plan.positions;
     start = plan.positions;
     const Positions gradients = plan.tracking.gradients;
-    one(step);
+    one(1.0 / parts);
     ++since;
     distrust_opposed(plan, gradients);
     const double moved = report.movements.back();
-    const bool stands = moved < plan.options.tolerance * plan.diagonal;
+    still = moved < plan.options.tolerance * plan.diagonal ? still + 1 : 0;
+    const bool stands = still >= kStill;
     if (!stands && since % kPatience != 0) continue;
     const std::vector<int> over =
         releases < kReleases ? flipped(plan, plan.mesh.triangles, plan.is_flat) : std::vector<int>();
@@ -133,13 +139,14 @@ void settle(EditPlan& plan, Report& report, const One& one) {
     }
     if (!over.empty()) {
       distrust(plan, over, releases++ / 3);
-      step = 1;
-    } else if ((plan.positions - before).rowwise().norm().maxCoeff() < kAway * moved / step) {
-      step /= 2;
+      parts = 1;
+    } else if (parts < kParts && (plan.positions - before).rowwise().norm().maxCoeff() < kAway * moved * parts) {
+      parts *= 2;
     } else {
       continue;
     }
-    since = 0;
+    tell();
+    since = still = 0;
     acceleration.emplace(kWindow);
   }
 }
@@ -200,15 +207,16 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
 TemplateEditResult result_of(EditPlan& plan, const VectorXd& target, Report report) {
   TemplateEditResult result;
   track(plan, target);
-  const Index count = plan.whole_count;
+  const Index count = plan.unsplit.vertices;
   const Eigen::ArrayXd off = plan.tracking.gaps.head(count).array().abs() / plan.diagonal;
   result.residual = off.mean();
   result.largest = off.maxCoeff();
-  result.flipped = static_cast<int>(flipped(plan, plan.whole, plan.whole_is_flat).size());
+  result.flipped = static_cast<int>(flipped(plan, plan.unsplit.triangles, plan.unsplit.is_flat).size());
   result.released = static_cast<int>((plan.trust.head(count).array() < 1).count());
   const Positions placed = plan.box.back(plan.positions.topRows(count));
   result.positions = plan.pose.back(
-      plan.given ? plan.given->back(placed, matrices_of_triangles(plan.elements, plan.whole, plan.maps)) : placed);
+      plan.given ? plan.given->back(placed, matrices_of_triangles(plan.elements, plan.unsplit.triangles, plan.maps))
+                 : placed);
   result.report = std::move(report);
   return result;
 }

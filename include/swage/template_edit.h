@@ -17,12 +17,14 @@
 namespace swage {
 
 struct TemplateEditOptions {
-  double tracking = 1;               ///< Weight of following the template against keeping the shape, above 0.
-  double smoothing = 0.1;            ///< How far neighbours' maps are joined: sigma_s as a part of D, at least 0.
-  double feature_angle = 30;         ///< Degrees: neighbours are not joined across sharper edges. (0, 180].
-  int sub_edits = 0;                 ///< Steps on the parameters' way; 0: as many as the residual asks for.
-  int passes = 1000;                 ///< At most in all, at least 1.
-  double tolerance = 1e-5;           ///< Of D: at rest are vertices that a pass moves less. (0, 1).
+  double tracking = 1;        ///< Weight of following the template against keeping the shape, above 0.
+  double smoothing = 0.1;     ///< How far neighbours' maps are joined: sigma_s as a part of D, at least 0.
+  double feature_angle = 30;  ///< Degrees: neighbours are not joined across sharper edges. (0, 180].
+  int sub_edits = 0;          ///< Steps on the parameters' way; 0: as many as the residual asks for.
+  int passes = 1000;          ///< At most in all, at least 1.
+  /// Of D: at rest are vertices that each of five passes moves less. (0, 1). A pass may go a part of the way only,
+  /// where whole ones went to and fro: report.paths["steps"] tells.
+  double tolerance = 1e-5;
   std::shared_ptr<Backend> backend;  ///< Does the local steps; cpu_backend() where none is given.
 };
 
@@ -39,9 +41,9 @@ struct TemplateEditResult {
 struct EditPlan;  ///< What is kept of a mesh between edits.
 
 /// A mesh that follows a template which was fitted to it, by edges of a twentieth of D at most (longer ones are split
-/// meanwhile: corners alone would tell nothing of a box's sides). Prepared once, with the template as it lies at rest;
-/// then moved again and again. What is found depends on the parameters asked for, not on those asked for before, but
-/// for follow().
+/// meanwhile, into at most 50,000 triangles more: corners alone would tell nothing of a box's sides). Prepared once,
+/// with the template as it lies at rest; then moved again and again. What is found depends on the parameters asked for,
+/// not on those asked for before, but for follow().
 class TemplateEdit {
  public:
   /// `source`: the parameters with which the template lies in the mesh, and `pose` where (template_fit.h).

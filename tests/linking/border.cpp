@@ -62,10 +62,10 @@ void errors() {
   caught = false;
   try {
     swage::opencl_backend("no such device");
-  } catch (const std::runtime_error&) {  // not in this build, or no such device
+  } catch (const swage::Unavailable&) {  // not in this build, or no such device
     caught = true;
   }
-  require(caught, "an error by its base");
+  require(caught, "another error by its type");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Meshes whose vertices alone say little: all of a box's corners lie on its template wherever its sides go.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "shapes.h"
@@ -31,6 +32,23 @@ TEST_P(CornersAlone, FollowTheirTemplate) {
 
 // Sharp, the field's slope at corners is that of one of three sides.
 INSTANTIATE_TEST_SUITE_P(Rounded, CornersAlone, testing::Values(0, 1e-5, 0.02));
+
+TEST(TemplateCoarse, TellsOfTheEdgesGiven) {
+  const Template of = shipped_template("box");
+  Mesh open = box({1, 1, 1}, 1);
+  open.positions.rowwise() -= open.positions.colwise().mean();
+  open.triangles.conservativeResize(open.triangles.rows() - 2, 3);
+  TemplateEdit edit(of, of.defaults(), {}, open.positions, open.triangles);
+  Eigen::VectorXd wider = of.defaults();
+  wider[of.parameter("width")] *= 1.1;
+  const Report report = edit.solve(wider).report;
+  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("4 edges have one triangle")));
+  EXPECT_THAT(report.paths.at("edges"), testing::HasSubstr("split"));
+  const Mesh fine = box({1, 1, 1}, 40);
+  const Positions centred = fine.positions.rowwise() - fine.positions.colwise().mean();
+  TemplateEdit of_many(of, of.defaults(), {}, centred, fine.triangles);
+  EXPECT_EQ(of_many.solve(wider).report.paths.at("edges"), "as given");
+}
 
 }  // namespace
 }  // namespace swage::test

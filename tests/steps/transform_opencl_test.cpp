@@ -209,7 +209,7 @@ in_single::Mat3 single9(const Eigen::Matrix<double, 1, 9>& m) {
 TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
   const auto backend = test::opencl_or_skip(Precision::single);
   if (!backend) return;
-  if (test::sees_rounded(*backend)) GTEST_SKIP() << "a GPU's functions round as they like";
+  const double tolerance = test::sees_rounded(*backend) ? 1e-5 : 0;  // A GPU's functions round as they like.
   const TransformStep::Rest rest = rest_of(test::torus());
   const Edges edges = edges_of(rest.triangles);
   const Input input = input_for(rest, 5);
@@ -233,8 +233,8 @@ TEST(TransformOnADevice, IsTheSameMathsAsInCppBitForBit) {
         in_single::edge_quadratic(sum, 1, single3(vector), static_cast<float>(weight), target, normal_weight, scale);
     const auto& [diagonal, mixed] = expected.block;
     const Eigen::Matrix<double, 1, 6> block{diagonal.x, mixed.x, mixed.y, diagonal.y, mixed.z, diagonal.z};
-    EXPECT_EQ(quadratics.blocks.row(e), block) << "edge " << e;
-    EXPECT_EQ(quadratics.target_lengths[e], static_cast<double>(target)) << "edge " << e;
+    EXPECT_LE((quadratics.blocks.row(e) - block).norm(), tolerance * block.norm()) << "edge " << e;
+    EXPECT_NEAR(quadratics.target_lengths[e], target, tolerance * target) << "edge " << e;
   }
 }
 
