@@ -22,7 +22,6 @@ constexpr int kWholeMoves = 5;    // Of a pass.
 constexpr double kBegin = 0.02;   // Of a sub-edit.
 constexpr double kSolved = 1e-4;  // Part of the error that ends conjugate gradients.
 constexpr int kWindow = 3;        // Passes that the next start is made of.
-constexpr int kStill = 5;         // Passes in a row that move little: accelerated, one may do so by chance.
 constexpr int kPatience = 50;     // Passes until triangles that turned over are looked at,
 constexpr int kReleases = 16;     // and how often they are released.
 constexpr double kAway = 5;       // Steps that they go together at least, unless they go to and fro,
@@ -114,7 +113,7 @@ template <typename One>
 void settle(EditPlan& plan, Report& report, const One& one) {
   std::optional<Anderson> acceleration(kWindow);
   Positions start, before;  // Of the last pass, and of as many as are waited for.
-  int parts = 1, releases = 0, since = 0, still = 0;
+  int parts = 1, releases = 0, since = 0;
   const auto tell = [&] {
     report.paths["steps"] = parts == 1 ? "whole" : "1/" + std::to_string(parts) + " in the end";
   };
@@ -128,8 +127,7 @@ void settle(EditPlan& plan, Report& report, const One& one) {
     ++since;
     distrust_opposed(plan, gradients);
     const double moved = report.movements.back();
-    still = moved < plan.options.tolerance * plan.diagonal ? still + 1 : 0;
-    const bool stands = still >= kStill;
+    const bool stands = moved < plan.options.tolerance * plan.diagonal;
     if (!stands && since % kPatience != 0) continue;
     const std::vector<int> over =
         releases < kReleases ? flipped(plan, plan.mesh.triangles, plan.is_flat) : std::vector<int>();
@@ -146,7 +144,7 @@ void settle(EditPlan& plan, Report& report, const One& one) {
       continue;
     }
     tell();
-    since = still = 0;
+    since = 0;
     acceleration.emplace(kWindow);
   }
 }

@@ -22,7 +22,7 @@ struct TemplateEditOptions {
   double feature_angle = 30;  ///< Degrees: neighbours are not joined across sharper edges. (0, 180].
   int sub_edits = 0;          ///< Steps on the parameters' way; 0: as many as the residual asks for.
   int passes = 1000;          ///< At most in all, at least 1.
-  /// Of D: at rest are vertices that each of five passes moves less. (0, 1). A pass may go a part of the way only,
+  /// Of D: at rest are vertices that a pass moves less. (0, 1). A pass may go a part of the way only,
   /// where whole ones went to and fro: report.paths["steps"] tells.
   double tolerance = 1e-5;
   std::shared_ptr<Backend> backend;  ///< Does the local steps; cpu_backend() where none is given.

@@ -110,8 +110,8 @@ Case edit_case() {
              TemplateEdit edit(of, with(of, kBrick), pose_of(written), mesh.positions, mesh.triangles, options);
              return written.back(edit.solve(with(of, target)).positions);
            }};
-  // After all its passes it still slides by 1e-9 D a pass along the template, as far as the factor's last digits
-  // decide.
+  // Where on its slow slide along the template it ends the factor's last digits decide, which processors have their own
+  // of.
   one.golden = 1e-6;
   return one;
 }
