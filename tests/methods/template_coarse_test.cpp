@@ -44,6 +44,11 @@ TEST(TemplateCoarse, TellsOfTheEdgesGiven) {
   const Report report = edit.solve(wider).report;
   EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("4 edges have one triangle")));
   EXPECT_THAT(report.paths.at("edges"), testing::HasSubstr("split"));
+  const TemplateEditResult stopped = edit.solve(wider, [](const Progress&) { return false; });
+  EXPECT_EQ(stopped.report.stop, Termination::cancelled);
+  EXPECT_EQ(stopped.positions.rows(), open.positions.rows());
+  TemplateEdit unprepared(of, of.defaults(), {}, open.positions, open.triangles);
+  EXPECT_EQ(unprepared.solve(wider, [](const Progress&) { return false; }).positions.rows(), open.positions.rows());
   const Mesh fine = box({1, 1, 1}, 40);
   const Positions centred = fine.positions.rowwise() - fine.positions.colwise().mean();
   TemplateEdit of_many(of, of.defaults(), {}, centred, fine.triangles);

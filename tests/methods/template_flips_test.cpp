@@ -1,4 +1,5 @@
 // Triangles that turn over while they follow a template (host/template/edit_trust.cpp), and what keeps passes steady.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -88,6 +89,7 @@ TEST(TemplateFlips, LetsGoOfWhatIsToldOfBothSides) {
   thinner[of.parameter("depth")] = 0.5;
   const TemplateEditResult result = edit.solve(thinner);
   EXPECT_EQ(result.report.stop, Termination::moved_little);
+  EXPECT_THAT(result.report.paths.at("steps"), testing::MatchesRegex("whole|1/[0-9]+ in the end"));
   EXPECT_GT(result.released, 0);
   EXPECT_EQ(result.flipped, 0);
   const Eigen::VectorXd z = result.positions.col(2);
