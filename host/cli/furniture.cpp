@@ -47,7 +47,7 @@ struct Axis {
 };
 
 // The runs by name, so that blocks read as a carpenter would say them.
-enum Across { rim_low, leg_low, leg_low_core, leg_low_end, between, leg_high, leg_high_core, leg_high_end, rim_high };
+enum Across { rim_low, leg_low, leg_low_core, leg_low_end, gap, leg_high, leg_high_core, leg_high_end, rim_high };
 enum Upright { leg_below, stretcher, leg_above, seat, gap_1, slat_1, gap_2, slat_2, gap_3, crest, tip };
 
 Axis across(double half, double between_legs, int cells_between) {
@@ -133,11 +133,11 @@ Blocks chair_blocks(const Grid& grid) {
     const Interval leg = cells(grid.x, x, x + 2), core = cells(grid.x, x + 1);
     blocks.fill(leg, cells(grid.y, leg_below, leg_above), cells(grid.z, leg_high, leg_high_end));
     blocks.fill(leg, cells(grid.y, leg_below, tip), cells(grid.z, leg_low, leg_low_end));
-    blocks.fill(core, cells(grid.y, stretcher), cells(grid.z, between));
+    blocks.fill(core, cells(grid.y, stretcher), cells(grid.z, gap));
   }
   blocks.fill(cells(grid.x, rim_low, rim_high), cells(grid.y, seat), cells(grid.z, rim_low, rim_high));
   for (const int y : {slat_1, slat_2, crest}) {
-    blocks.fill(cells(grid.x, between), cells(grid.y, y), cells(grid.z, leg_low_core));
+    blocks.fill(cells(grid.x, gap), cells(grid.y, y), cells(grid.z, leg_low_core));
   }
   return blocks;
 }

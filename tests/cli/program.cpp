@@ -44,6 +44,11 @@ int Running::wait() const {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
 
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 Running start(const Arguments& arguments, const std::filesystem::path& out, const std::filesystem::path& err,
               const std::vector<std::string>& environment) {
   std::vector<std::string> texts{SWAGE_PROGRAM}, variables = with_ours(environment);
@@ -136,6 +141,13 @@ std::string box_obj(int cells) {
   }
   return "# a box, for a test\r\nmtllib box.mtl\no box\n" + vertices.str() +
          "vt 0.50 0.250\nvn -1 0 0\nvn 1 0 0\nvn 0 -1 0\nvn 0 1 0\nvn 0 0 -1\nvn 0 0 1\ns off\n" + faces.str();
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> result;
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
 }
 
 std::vector<std::string> names_in(const std::filesystem::path& folder) {

@@ -24,6 +24,7 @@ struct Running {
 };
 
 using Arguments = std::vector<std::string>;
+Arguments operator+(Arguments a, const Arguments& b);
 
 /// `environment` holds NAME=VALUE.
 Running start(const Arguments& arguments, const std::filesystem::path& out, const std::filesystem::path& err,
@@ -56,6 +57,8 @@ class Terminal {
 
 /// An OBJ of a box, 1 x 1 x 2, of quadrilaterals, with all that must survive: comments, normals, texture, groups.
 std::string box_obj(int cells = 3);
+
+std::vector<std::string> lines(const std::string& text);
 
 /// Names of the files in a folder, sorted.
 std::vector<std::string> names_in(const std::filesystem::path& folder);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "program.h"
 #include "rays_embree.h"
@@ -35,13 +34,6 @@ class Reshaping : public testing::Test {
   std::filesystem::path box_ = folder_ / "box.obj";
   std::filesystem::path result_ = folder_ / "result.obj";
 };
-
-std::vector<std::string> lines(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> result;
-  for (std::string line; std::getline(in, line);) result.push_back(line);
-  return result;
-}
 
 bool is_moving(const std::string& line) { return line.starts_with("v ") || line.starts_with("vn "); }
 

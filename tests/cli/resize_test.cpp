@@ -18,18 +18,6 @@ using Eigen::Vector3d;
 using nlohmann::json;
 using testing::HasSubstr;
 
-std::vector<std::string> lines(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> result;
-  for (std::string line; std::getline(in, line);) result.push_back(line);
-  return result;
-}
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 const Arguments kTwice{"--scale", "2,1,1"};
 
 /// How much longer than high the ball is.

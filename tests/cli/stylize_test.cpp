@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "measures.h"
 #include "opencl_device.h"
@@ -60,13 +59,6 @@ class Stylizing : public testing::Test {
   TempFolder folder_;
   std::string ball_ = folder_ / "ball.obj";
 };
-
-std::vector<std::string> lines(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> result;
-  for (std::string line; std::getline(in, line);) result.push_back(line);
-  return result;
-}
 
 double angle(const json& report, const char* when) { return report["target_angle_deg"][when]["mean"]; }
 

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
-#include <sstream>
 
 #include "opencl_device.h"
 #include "shapes.h"
@@ -41,13 +40,6 @@ struct TemplateEditing : Templating {
   std::string fit_ = file("fit.json");
   Arguments edit_{"edit", model_, "--fit", fit_};
 };
-
-std::vector<std::string> lines(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> result;
-  for (std::string line; std::getline(in, line);) result.push_back(line);
-  return result;
-}
 
 TEST_F(TemplateEditing, OnlyVerticesAndNormalsChange) {
   const std::vector<std::string> before = lines(box_obj()),

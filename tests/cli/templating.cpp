@@ -43,11 +43,6 @@ void Templating::expect(int code, const std::string& says, const Arguments& argu
   EXPECT_TRUE(read_text(model_) == model);
 }
 
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 void expect_keys(const json& told, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     EXPECT_TRUE(told.contains(key)) << key;

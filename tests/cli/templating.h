@@ -30,8 +30,6 @@ class Templating : public testing::Test {
   std::string model_ = folder_ / "model.obj";
 };
 
-Arguments operator+(Arguments a, const Arguments& b);
-
 /// A fit of few samples: quick, and near enough for a box.
 inline const Arguments kQuick{"--samples", "400", "--volume-samples", "200", "--no-turns"};
 
