@@ -165,8 +165,10 @@ void print(const std::string& path, const Diagnosis& found, const Verdict& verdi
   for (const auto& [name, count] : numbers.items()) row(words_of(name), std::to_string(count.get<int>()));
   if (!found.self_intersections_complete) row("", "or more self intersections: the search ended there");
   if (const std::string words = first_words(found); !words.empty()) row("first, counted from 0", words);
-  row("mean edge", fmt::format("{:.6g}, shortest {:.3g} and longest {:.3g} times that", found.mean_edge,
-                               found.shortest_edge / found.mean_edge, found.longest_edge / found.mean_edge));
+  row("mean edge", found.mean_edge == 0
+                       ? "0"
+                       : fmt::format("{:.6g}, shortest {:.3g} and longest {:.3g} times that", found.mean_edge,
+                                     found.shortest_edge / found.mean_edge, found.longest_edge / found.mean_edge));
   row("smallest angle",
       fmt::format("{:.3g} degrees; {:.3g} at the 5th percentile; below 10 in {:.3g} % of triangles",
                   degrees(found.smallest_angle), degrees(found.low_angle), 100 * found.needle_fraction));

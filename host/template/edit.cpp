@@ -13,6 +13,8 @@
 namespace swage {
 namespace {
 
+constexpr double kManyReleased = 0.1;  // Part of the vertices.
+
 TemplateEditResult cancelled(const EditPlan& plan) {
   TemplateEditResult result;
   result.positions =
@@ -47,6 +49,11 @@ void warn_of_end(const EditPlan& plan, TemplateEditResult& result) {
   if (result.flipped > 0) {
     report.warnings.push_back(std::to_string(result.flipped) +
                               " triangles turned over: the mesh cannot do there what the template asks for");
+  }
+  if (result.released > kManyReleased * static_cast<double>(plan.unsplit.vertices)) {
+    report.warnings.push_back(std::to_string(result.released) + " of " + std::to_string(plan.unsplit.vertices) +
+                              " vertices go with their neighbours rather than with the template, which asks for what "
+                              "they cannot do: look at the result");
   }
 }
 

@@ -123,13 +123,25 @@ bool move_as_whole(EditPlan& plan);
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
 // edit_trust.cpp
+/// The rest area vectors of `triangles` as their corners' maps take them.
+Positions carried_areas(const EditPlan& plan, const Triangles& triangles);
 /// Of `triangles` those that face against where their corners' maps take their rest normal, but those flat at rest.
 std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat);
+/// Of each vertex whether it is of `triangles` or in as many rings around them.
+std::vector<char> around(const EditPlan& plan, const std::vector<int>& triangles, int rings);
 /// What the template asks of the vertices as many rings around them they cannot do: they go with their neighbours.
 void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings);
 /// Likewise of vertices that now are on another side of the template than with the last pass's `gradients`: where it
 /// has become thinner than they lie deep in it, there is no place that it asks for.
 void distrust_opposed(EditPlan& plan, const Positions& gradients);
+
+/// What the template asks of those `inside` counts next to nothing from now on.
+void let_go(EditPlan& plan, const std::vector<char>& inside);
+
+// edit_heal.cpp
+/// Turns back what is over in the end, whatever the template asks for: folds go with what is around them, corners of
+/// slivers aside. Nothing moves where nothing is. Tells in words what it did.
+std::string heal(EditPlan& plan);
 
 // follow.cpp
 /// Of conjugate gradients in a pass: until the mesh stands still, and while it is dragged.

@@ -16,22 +16,29 @@ constexpr double kTold = 0.3;      // Part that is left, each time, of what is t
 
 }  // namespace
 
-std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat) {
-  const Positions before = area_vectors(plan.elements.pairs.vertices, triangles),
-                  after = area_vectors(plan.positions, triangles);
+Positions carried_areas(const EditPlan& plan, const Triangles& triangles) {
+  Positions areas = area_vectors(plan.elements.pairs.vertices, triangles);
   const Transforms maps = matrices_of_triangles(plan.elements, triangles, plan.maps);
-  std::vector<int> found;
-  for (Index t = 0; t < before.rows(); ++t) {
-    if (is_flat[static_cast<size_t>(t)] != 0) continue;
+  for (Index t = 0; t < areas.rows(); ++t) {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(maps.row(t).data());
     Eigen::Matrix3d cofactors;
     cofactors << map.row(1).cross(map.row(2)), map.row(2).cross(map.row(0)), map.row(0).cross(map.row(1));
-    if ((cofactors * before.row(t).transpose()).dot(after.row(t)) < 0) found.push_back(static_cast<int>(t));
+    areas.row(t) = areas.row(t) * cofactors.transpose();
+  }
+  return areas;
+}
+
+std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat) {
+  const Positions carried = carried_areas(plan, triangles), after = area_vectors(plan.positions, triangles);
+  std::vector<int> found;
+  for (Index t = 0; t < after.rows(); ++t) {
+    if (is_flat[static_cast<size_t>(t)] == 0 && carried.row(t).dot(after.row(t)) < 0)
+      found.push_back(static_cast<int>(t));
   }
   return found;
 }
 
-void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings) {
+std::vector<char> around(const EditPlan& plan, const std::vector<int>& triangles, int rings) {
   std::vector<char> reached(static_cast<size_t>(plan.trust.size()), 0);
   for (const int t : triangles) {
     for (const int v : plan.mesh.triangles.row(t)) reached[static_cast<size_t>(v)] = 1;
@@ -44,8 +51,19 @@ void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings) {
       if (before[b] != 0) reached[a] = 1;
     }
   }
+  return reached;
+}
+
+void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings) {
+  const std::vector<char> reached = around(plan, triangles, rings);
   for (Index v = 0; v < plan.trust.size(); ++v) {
     if (reached[static_cast<size_t>(v)] != 0) plan.trust[v] = std::max(kLeast, kTrust * plan.trust[v]);
+  }
+}
+
+void let_go(EditPlan& plan, const std::vector<char>& inside) {
+  for (Index v = 0; v < plan.trust.size(); ++v) {
+    if (inside[static_cast<size_t>(v)] != 0) plan.trust[v] = std::min(kLeast, plan.trust[v]);
   }
 }
 

@@ -195,6 +195,7 @@ Report advance(EditPlan& plan, const VectorXd& target, const ProgressFn& progres
       for (int i = 0; i < kSubEditPasses && report.passes < plan.options.passes; ++i) one(at, 1);
     }
     settle(plan, report, [&](double step) { one(1, step); });
+    report.paths["flips"] = heal(plan);
   } catch (const Cancelled&) {
     report.stop = Termination::cancelled;
   }

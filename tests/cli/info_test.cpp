@@ -193,6 +193,15 @@ TEST(Info, Needles) {
   EXPECT_GT(facts["low_angle_deg"], facts["smallest_angle_deg"]);
 }
 
+TEST(Info, AllAtOnePointIsToldWithoutRatios) {
+  const TempFolder folder;
+  write_text(folder / "point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  const Outcome outcome = run({"info", (folder / "point.obj").string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("mean edge +0\n"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("nan")));
+}
+
 TEST(Info, TheTableSaysTheSameInWords) {
   const TempFolder folder;
   write_mesh(folder / "sheet.obj", sheet(5));

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "edit_plan.h"
@@ -74,6 +76,54 @@ TEST(TemplateFlips, PassesCalmWhatWasDisturbed) {
   EXPECT_LT(last, 0.02 * first);
   EXPECT_LT((plan->positions - rest).rowwise().norm().maxCoeff(), 5e-4 * plan->diagonal);
   EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+}
+
+TEST(TemplateFlips, FoldsAreTakenBackByWhatIsAroundThem) {
+  const auto plan = plate(24);
+  const Positions rest = plan->positions;
+  // A part of the plate is crumpled, and its maps with it.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  const int middle = static_cast<int>(plan->mesh.triangles.rows()) / 2;
+  const std::vector<char> crumpled = around(*plan, {middle}, 1);
+  for (Index v = 0; v < rest.rows(); ++v) {
+    if (crumpled[static_cast<size_t>(v)] == 0) continue;
+    for (double& x : plan->positions.row(v)) x += 0.05 * plan->diagonal * noise(random);
+    for (double& x : plan->maps.row(v)) x += 0.1 * noise(random);
+  }
+  ASSERT_GT(flipped(*plan, plan->mesh.triangles, plan->is_flat).size(), 3);
+  EXPECT_THAT(heal(*plan), testing::HasSubstr(" turned back, "));
+  EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+  // All around is at rest, and that is what fits.
+  EXPECT_LT((plan->positions - rest).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((plan->trust.array() < 1).count(), 200);
+}
+
+// A sliver's long side bends with what it is on, but the triangle as given has its ends alone.
+TEST(TemplateFlips, SliversGiveWayWithinTheirSurface) {
+  const double height = 1e-3, bend = 3e-3;
+  Mesh mesh;
+  mesh.positions.resize(5, 3);
+  mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, -height, 0, 0.5, -1, 0, 0.5, 1, 0;
+  mesh.triangles.resize(4, 3);
+  mesh.triangles << 0, 2, 1, 0, 3, 2, 2, 3, 1, 0, 1, 4;
+  const Template of = shipped_template("box");
+  const auto plan = plan_of(of, of.defaults(), {}, mesh.positions, mesh.triangles, {});
+  prepare(*plan, {});
+  for (Index v = 0; v < plan->positions.rows(); ++v) {
+    const double along = plan->positions(v, 0) - plan->positions(0, 0);
+    plan->positions(v, 1) +=
+        bend * plan->diagonal * std::sin(std::numbers::pi * along / (plan->positions(1, 0) - plan->positions(0, 0)));
+  }
+  const Positions bent = plan->positions;
+  ASSERT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+  ASSERT_EQ(flipped(*plan, plan->unsplit.triangles, plan->unsplit.is_flat), (std::vector<int>{0}));
+  heal(*plan);
+  EXPECT_TRUE(flipped(*plan, plan->unsplit.triangles, plan->unsplit.is_flat).empty());
+  const Positions moved = plan->positions - bent;
+  EXPECT_LT(moved.rowwise().norm().maxCoeff(), 2 * bend * plan->diagonal);
+  EXPECT_EQ(moved.col(2).norm(), 0);
+  EXPECT_EQ(moved.bottomRows(moved.rows() - 3).norm(), 0);
 }
 
 // A sheet deeper in a box than that will be thick: there is no place for it.
