@@ -142,6 +142,12 @@ TEST(TemplateFlips, LetsGoOfWhatIsToldOfBothSides) {
   EXPECT_THAT(result.report.paths.at("steps"), testing::MatchesRegex("whole|1/[0-9]+ in the end"));
   EXPECT_GT(result.released, 0);
   EXPECT_EQ(result.flipped, 0);
+  EXPECT_EQ(result.report.paths.at("flips"), "none");
+  // Many that do not follow are told of.
+  const auto is_told = testing::Contains(testing::HasSubstr(" go with their neighbours rather than with the template"));
+  const bool are_many = 10 * result.released > mesh.positions.rows();
+  EXPECT_EQ(testing::Matches(is_told)(result.report.warnings), are_many) << result.released;
+  EXPECT_THAT(edit.solve(of.defaults()).report.warnings, testing::Not(is_told));
   const Eigen::VectorXd z = result.positions.col(2);
   const Index count = outside.positions.rows();
   EXPECT_NEAR(z.head(count).maxCoeff(), 0.26, 0.01);
