@@ -149,16 +149,14 @@ void heal_slivers(EditPlan& plan) {
 std::string heal(EditPlan& plan) {
   const auto over = [&] { return flipped(plan, plan.unsplit.triangles, plan.unsplit.is_flat).size(); };
   const size_t at_first = over();
-  const Positions before = plan.positions;
+  const Positions before = plan.positions.topRows(plan.unsplit.vertices);
   heal_folds(plan);
   heal_slivers(plan);
-  const size_t back = at_first - std::min(at_first, over());
-  if (at_first == 0) return "none";
-  if (back == 0) return "left: nothing near them turns them back";
+  const double moved = (plan.positions.topRows(before.rows()) - before).rowwise().norm().maxCoeff();
+  if (moved == 0) return at_first == 0 ? "none" : "left: nothing near them turns them back";
   std::ostringstream words;
-  words << back << " turned back, which moved vertices by " << std::setprecision(2)
-        << 100 * (plan.positions - before).rowwise().norm().maxCoeff() / plan.diagonal
-        << " % of the box diagonal at most";
+  words << at_first - std::min(at_first, over()) << " turned back, which moved vertices by " << std::setprecision(2)
+        << 100 * moved / plan.diagonal << " % of the box diagonal at most";
   return words.str();
 }
 
