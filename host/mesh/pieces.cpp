@@ -38,8 +38,9 @@ std::vector<char> kinds_of_sides(const Positions& positions, const Triangles& tr
     return !a.isZero(0) && !b.isZero(0) && a.cross(b).norm() * cosine <= a.dot(b) * sine;
   };
   std::vector<char> kinds(static_cast<size_t>(triangles.size()));
+  const auto sides = static_cast<int>(triangles.size());
 #pragma omp parallel for schedule(static)
-  for (int side = 0; side < triangles.size(); ++side) {
+  for (int side = 0; side < sides; ++side) {
     const int other = next.data()[side];
     const bool are_two = next.data()[other] == side;
     if (are_two && other < side) continue;  // The other tells of both.
@@ -102,8 +103,9 @@ std::vector<int> number_fans(Triangles& fans) {
     fans.data()[corner] = ~static_cast<int>(firsts.size());
     firsts.push_back(corner);
   }
+  const auto corners = static_cast<int>(fans.size());
 #pragma omp parallel for schedule(static)
-  for (int corner = 0; corner < fans.size(); ++corner) {
+  for (int corner = 0; corner < corners; ++corner) {
     int& fan = fans.data()[corner];
     if (fan >= 0) fan = ~fans.data()[fan];
   }

@@ -47,8 +47,9 @@ int only_other(const NextSides& next, int side) {
 
 bool all_wind_alike(const Triangles& triangles, const NextSides& next) {
   bool alike = true;
+  const auto sides = static_cast<int>(next.size());
 #pragma omp parallel for schedule(static) reduction(&& : alike)
-  for (int side = 0; side < next.size(); ++side) {
+  for (int side = 0; side < sides; ++side) {
     const int other = only_other(next, side);
     alike = alike && (other < 0 || !same_way(triangles, side, other));
   }

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr std::array kRings{1, 2, 4, 8};
-constexpr double kFace = 0.05;   // Part of its area that a triangle is turned back to,
+constexpr double kFace = 0.05;   // Part of its area, then or now, that a triangle is turned back to,
 constexpr int kRounds = 5;       // for those turned over, with those beside them, as often,
 constexpr int kSweeps = 100;     // in as many sweeps each.
 constexpr double kAside = 0.01;  // Of D: no vertex goes farther for this.
@@ -46,7 +46,7 @@ bool place_among(const EditPlan& plan, HeldPoints& held, Positions& positions, T
   }
 }
 
-/// As given, what a triangle's area is along where its corners' maps take its rest normal, and what it is to be.
+/// Where a triangle faced, and what its area along that is to be.
 struct Facing {
   Eigen::RowVector3i corners;
   Vector3d normal;
@@ -65,16 +65,14 @@ std::vector<Facing> facings(const EditPlan& plan, const std::vector<int>& over) 
   for (const int t : over) {
     for (const int v : triangles.row(t)) reached[static_cast<size_t>(v)] = 1;
   }
-  const Positions areas = carried_areas(plan, triangles);
+  const Positions areas = faced(plan, triangles), areas_now = area_vectors(plan.positions, triangles);
   std::vector<Facing> found;
   for (Index t = 0; t < triangles.rows(); ++t) {
     const auto is_reached = [&](int v) { return reached[static_cast<size_t>(v)] != 0; };
     const Eigen::RowVector3i corners = triangles.row(t);
     const double area = areas.row(t).norm();
-    if (plan.unsplit.is_flat[static_cast<size_t>(t)] != 0 || area == 0 ||
-        std::none_of(corners.begin(), corners.end(), is_reached))
-      continue;
-    Facing facing{corners, areas.row(t).transpose() / area, kFace * area};
+    if (area == 0 || std::none_of(corners.begin(), corners.end(), is_reached)) continue;
+    Facing facing{corners, areas.row(t).transpose() / area, kFace * std::max(area, areas_now.row(t).norm())};
     const double now = area_along(facing, plan.positions);
     if (now >= 0) facing.least = std::min(facing.least, now);
     found.push_back(facing);
@@ -127,14 +125,17 @@ void heal_folds(EditPlan& plan) {
   }
 }
 
-/// Slivers, and whatever its own corners have turned over: they go aside within the surface.
+/// Slivers, and whatever its own corners have turned over: they go aside within the surface. Flat triangles too, by the
+/// normals that they have: one who counts what turned over may not leave them out.
 void heal_slivers(EditPlan& plan) {
   const Positions before = plan.positions;
-  std::vector<int> over = flipped(plan, plan.unsplit.triangles, plan.unsplit.is_flat);
+  const std::vector<char> none_is_flat(static_cast<size_t>(plan.unsplit.triangles.rows()), 0);
+  const auto over_now = [&] { return flipped(plan, plan.unsplit.triangles, none_is_flat); };
+  std::vector<int> over = over_now();
   for (int round = 0; round < kRounds && !over.empty(); ++round) {
     Positions positions = plan.positions;
     turn_back(facings(plan, over), plan.positions);
-    std::vector<int> left = flipped(plan, plan.unsplit.triangles, plan.unsplit.is_flat);
+    std::vector<int> left = over_now();
     const bool is_far = !((plan.positions - before).rowwise().norm().maxCoeff() < kAside * plan.diagonal);
     if (is_far || left.size() >= over.size()) {
       plan.positions = std::move(positions);

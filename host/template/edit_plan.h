@@ -49,6 +49,10 @@ struct Tracking {
   Eigen::VectorXd weights;  ///< m_v as trusted: 0 where the field tells nothing.
 };
 
+/// Columns t, w, s of displacements t + w × x + s x, about a middle, that tracking is told nothing of: a turn about the
+/// axis of a template that is round.
+using IdleMotions = Eigen::Matrix<double, 7, Eigen::Dynamic, Eigen::ColMajor, 7, 7>;
+
 struct EditPlan {
   Template of;
   Eigen::VectorXd source;
@@ -90,6 +94,8 @@ struct EditPlan {
   Eigen::VectorXd trust = {};  ///< Parts of m_v: less where the template asks for what the mesh cannot do.
   double growth = 1;           ///< Of the template as a whole: what lies off its surface grows along.
   Tracking tracking = {};
+  IdleMotions idle = {};
+  Eigen::RowVector3d idle_about = Eigen::RowVector3d::Zero();
   GradientsWork<Eigen::VectorXd> work = {};
 };
 
@@ -118,14 +124,19 @@ void aim(EditPlan& plan);
 // edit_whole.cpp
 /// Moves, turns and scales the whole mesh where that is most of what it has to do. Whether it did.
 bool move_as_whole(EditPlan& plan);
+/// Takes the idle motions, as move_as_whole() last found them, out of a pass's displacements: passes would drift along.
+void stay(const EditPlan& plan, Positions& moved);
 /// Moves the mesh to where the target's template is where that is the source's, moved, turned and scaled. False, and
 /// nothing has moved, where it is not.
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
 // edit_trust.cpp
-/// The rest area vectors of `triangles` as their corners' maps take them.
-Positions carried_areas(const EditPlan& plan, const Triangles& triangles);
-/// Of `triangles` those that face against where their corners' maps take their rest normal, but those flat at rest.
+/// The triangles that face against where their corners' maps take their rest normal, but those flat at rest.
+std::vector<int> folded(const EditPlan& plan);
+/// Of `triangles` their rest area vectors, but where all around turned them by more than a right angle as that left
+/// them.
+Positions faced(const EditPlan& plan, const Triangles& triangles);
+/// Of `triangles` those that face against that, but those flat at rest.
 std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat);
 /// Of each vertex whether it is of `triangles` or in as many rings around them.
 std::vector<char> around(const EditPlan& plan, const std::vector<int>& triangles, int rings);

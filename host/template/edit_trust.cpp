@@ -13,12 +13,31 @@ constexpr double kTrust = 0.1;     // Part of the tracking that is left, each ti
 constexpr double kLeast = 1e-3;    // and in the end: what is not held at all drifts away.
 constexpr double kOpposed = -0.5;  // Cosine of a gradient and the last pass's there: the template's other side.
 constexpr double kTold = 0.3;      // Part that is left, each time, of what is told of both sides by turns.
+constexpr int kRounds = 16;        // Of evening maps out.
 
-}  // namespace
+/// The vertices' maps evened out over some rings, each counting as much as its vertex is trusted.
+Transforms evened_maps(const EditPlan& plan) {
+  using Sums = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;  // Maps by trust, and trust.
+  const SparseMatrix& laplacian = plan.system.laplacian();
+  Sums sums(plan.maps.rows(), 10), before;
+  sums << plan.trust.asDiagonal() * plan.maps, plan.trust;
+  for (int round = 0; round < kRounds; ++round) {
+    std::swap(sums, before);
+    sums.resizeLike(before);
+#pragma omp parallel for schedule(static)
+    for (Index v = 0; v < laplacian.cols(); ++v) {
+      Eigen::Matrix<double, 1, 10> sum = Eigen::Matrix<double, 1, 10>::Zero();
+      for (SparseMatrix::InnerIterator entry(laplacian, v); entry; ++entry) sum += before.row(entry.row());
+      sums.row(v) = sum / static_cast<double>(laplacian.col(v).nonZeros());
+    }
+  }
+  return sums.leftCols<9>().array().colwise() / sums.col(9).array();
+}
 
-Positions carried_areas(const EditPlan& plan, const Triangles& triangles) {
+/// The rest area vectors of `triangles` as their corners' maps take them.
+Positions carried_areas(const EditPlan& plan, const Triangles& triangles, const Transforms& vertex_maps) {
   Positions areas = area_vectors(plan.elements.pairs.vertices, triangles);
-  const Transforms maps = matrices_of_triangles(plan.elements, triangles, plan.maps);
+  const Transforms maps = matrices_of_triangles(plan.elements, triangles, vertex_maps);
   for (Index t = 0; t < areas.rows(); ++t) {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(maps.row(t).data());
     Eigen::Matrix3d cofactors;
@@ -28,11 +47,33 @@ Positions carried_areas(const EditPlan& plan, const Triangles& triangles) {
   return areas;
 }
 
-std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat) {
-  const Positions carried = carried_areas(plan, triangles), after = area_vectors(plan.positions, triangles);
+}  // namespace
+
+std::vector<int> folded(const EditPlan& plan) {
+  const Positions carried = carried_areas(plan, plan.mesh.triangles, plan.maps);
+  const Positions after = area_vectors(plan.positions, plan.mesh.triangles);
   std::vector<int> found;
   for (Index t = 0; t < after.rows(); ++t) {
-    if (is_flat[static_cast<size_t>(t)] == 0 && carried.row(t).dot(after.row(t)) < 0)
+    if (plan.is_flat[static_cast<size_t>(t)] == 0 && carried.row(t).dot(after.row(t)) < 0)
+      found.push_back(static_cast<int>(t));
+  }
+  return found;
+}
+
+Positions faced(const EditPlan& plan, const Triangles& triangles) {
+  Positions rest = area_vectors(plan.elements.pairs.vertices, triangles);
+  const Positions carried = carried_areas(plan, triangles, evened_maps(plan));
+  for (Index t = 0; t < rest.rows(); ++t) {
+    if (rest.row(t).dot(carried.row(t)) < 0) rest.row(t) = carried.row(t);
+  }
+  return rest;
+}
+
+std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat) {
+  const Positions before = faced(plan, triangles), after = area_vectors(plan.positions, triangles);
+  std::vector<int> found;
+  for (Index t = 0; t < after.rows(); ++t) {
+    if (is_flat[static_cast<size_t>(t)] == 0 && before.row(t).dot(after.row(t)) < 0)
       found.push_back(static_cast<int>(t));
   }
   return found;

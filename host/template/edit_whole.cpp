@@ -1,5 +1,5 @@
 // What the template does as a whole, the mesh does at once: passes alone would carry it across slowly.
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -14,22 +14,33 @@ using Eigen::Vector3d;
 
 /// Of displacements t + w × x + s x: t, w, s.
 using Motion = Eigen::Vector<double, 7>;
+using Motions = Eigen::Matrix<double, 7, 7>;
 using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-constexpr double kLeft = 0.25;     // A motion that leaves more of the squared gaps is none of the whole.
-constexpr double kStill = 1e-7;    // Of D: smaller gaps are none.
-constexpr double kUntold = 0.3;    // Of the mean gap: what a motion of the whole may leave along the way.
-constexpr int kSteps = 16;         // Of a motion of the whole,
-constexpr int kMoves = 3;          // and how often each is corrected,
-constexpr int kLastMoves = 12;     // and the last.
-constexpr double kDamping = 1e-9;  // A ball may turn in place.
+constexpr double kLeft = 0.25;   // A motion that leaves more of the squared gaps is none of the whole.
+constexpr double kStill = 1e-7;  // Of D: smaller gaps are none.
+constexpr double kUntold = 0.3;  // Of the mean gap: what a motion of the whole may leave along the way.
+constexpr int kSteps = 16;       // Of a motion of the whole,
+constexpr int kMoves = 3;        // and how often each is corrected,
+constexpr int kLastMoves = 12;   // and the last.
+constexpr double kIdle = 1e-4;   // Part of a motion's squares that is along tracking's directions: below, it is idle.
 
-/// By which the tracking rows are met best, about the middle; and what it leaves of the squared gaps.
+/// By which the tracking rows are met best, about the middle; what it leaves of the squared gaps; and motions, each of
+/// length 1 in the rows' weights, that no row is told of.
 struct Whole {
   Motion motion = Motion::Zero();
+  IdleMotions idle;
   RowVector3d middle = RowVector3d::Zero();
   double square = 0, left = 0;
 };
+
+/// The displacements of what is at x by each of the motions.
+Eigen::Matrix<double, 3, 7> displacements(const Vector3d& x) {
+  Eigen::Matrix<double, 3, 7> columns;
+  columns << Eigen::Matrix3d::Identity(), Vector3d::UnitX().cross(x), Vector3d::UnitY().cross(x),
+      Vector3d::UnitZ().cross(x), x;
+  return columns;
+}
 
 /// `grows`: what lies off the surface scales along.
 Whole best_motion(const EditPlan& plan, bool grows) {
@@ -38,20 +49,27 @@ Whole best_motion(const EditPlan& plan, bool grows) {
   Whole whole;
   if (!(mass > 0)) return whole;
   whole.middle = tracking.weights.transpose() * plan.positions / mass;
-  Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
+  Motions told = Motions::Zero(), all = Motions::Zero();
   Motion right = Motion::Zero();
   for (Index v = 0; v < plan.positions.rows(); ++v) {
-    const Vector3d at = plan.positions.row(v) - whole.middle, direction = tracking.directions.row(v);
     const double weight = tracking.weights[v], gap = tracking.gaps[v];
-    Motion row;
-    row << direction, at.cross(direction), direction.dot(at);
-    if (grows && weight > 0) row[6] -= plan.growth * plan.rest_values[v] / tracking.field.gradients.row(v).norm();
-    matrix += weight * row * row.transpose();
+    if (!(weight > 0)) continue;
+    const Eigen::Matrix<double, 3, 7> columns = displacements(plan.positions.row(v) - whole.middle);
+    Motion row = (tracking.directions.row(v) * columns).transpose();
+    if (grows) row[6] -= plan.growth * plan.rest_values[v] / tracking.field.gradients.row(v).norm();
+    told += weight * row * row.transpose();
+    all += weight * columns.transpose() * columns;
     right += weight * gap * row;
     whole.square += weight * gap * gap;
   }
-  matrix.diagonal().array() += kDamping * matrix.trace();
-  whole.motion = matrix.ldlt().solve(right);
+  all.diagonal().array() += 1e-9 * all.trace();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Motions> modes(told, all);
+  const auto idle = (modes.eigenvalues().array() < kIdle).count();
+  whole.idle = modes.eigenvectors().leftCols(idle);
+  for (Index k = idle; k < modes.eigenvalues().size(); ++k) {
+    const Motion mode = modes.eigenvectors().col(k);
+    whole.motion += mode.dot(right) / modes.eigenvalues()[k] * mode;
+  }
   whole.left = whole.square - right.dot(whole.motion);
   return whole;
 }
@@ -81,11 +99,24 @@ double mean_gap(const EditPlan& plan) {
 
 bool move_as_whole(EditPlan& plan) {
   const Whole whole = best_motion(plan, false);
+  plan.idle = whole.idle;
+  plan.idle_about = whole.middle;
   const double still = kStill * plan.diagonal;
   if (!(whole.square > plan.tracking.weights.sum() * still * still)) return false;
   if (!(whole.left < kLeft * whole.square)) return false;
   move(plan, whole);
   return true;
+}
+
+void stay(const EditPlan& plan, Positions& moved) {
+  if (plan.idle.cols() == 0) return;
+  const auto columns = [&](Index v) { return displacements(plan.positions.row(v) - plan.idle_about); };
+  Motion along = Motion::Zero();
+  for (Index v = 0; v < moved.rows(); ++v) {
+    along += plan.tracking.weights[v] * columns(v).transpose() * moved.row(v).transpose();
+  }
+  const Motion drift = plan.idle * (plan.idle.transpose() * along);
+  for (Index v = 0; v < moved.rows(); ++v) moved.row(v) -= (columns(v) * drift).transpose();
 }
 
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll) {

@@ -94,7 +94,9 @@ void place(EditPlan& plan, int iterations, double part) {
     rows(e) = plan.about->solve(rows(r), plan.about_points);
   };
   conjugate_gradients(times, precondition, right, kSolved, iterations, moved, plan.work);
-  plan.positions += part * rows(moved);
+  Positions displacements = rows(moved);
+  stay(plan, displacements);
+  plan.positions += part * displacements;
 }
 
 /// Goes with a sub-edit as its begin has it: past that, what moves by half of its thickness would be told of its other
@@ -129,8 +131,7 @@ void settle(EditPlan& plan, Report& report, const One& one) {
     const double moved = report.movements.back();
     const bool stands = moved < plan.options.tolerance * plan.diagonal;
     if (!stands && since % kPatience != 0) continue;
-    const std::vector<int> over =
-        releases < kReleases ? flipped(plan, plan.mesh.triangles, plan.is_flat) : std::vector<int>();
+    const std::vector<int> over = releases < kReleases ? folded(plan) : std::vector<int>();
     if (stands && over.empty()) {
       report.stop = Termination::moved_little;
       return;

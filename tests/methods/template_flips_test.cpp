@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -25,20 +26,23 @@ std::unique_ptr<EditPlan> plate(int size) {
   return plan;
 }
 
+/// Of the mesh as given.
+std::vector<int> slivers(const EditPlan& plan) { return flipped(plan, plan.unsplit.triangles, plan.unsplit.is_flat); }
+
 TEST(TemplateFlips, FindsWhatFacesAgainstItsMaps) {
   const auto plan = plate(6);
-  EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+  EXPECT_TRUE(folded(*plan).empty());
   const auto corner = plan->mesh.triangles.row(10);
   const Positions rest = plan->positions;
   // A corner mirrored at the opposite side turns that triangle over and, of its neighbours, maybe more.
   const Eigen::RowVector3d from = rest.row(corner[1]), side = (rest.row(corner[2]) - from).normalized();
   const Eigen::RowVector3d off = rest.row(corner[0]) - from, along = off.dot(side) * side;
   plan->positions.row(corner[0]) = from + along - (off - along);
-  const std::vector<int> found = flipped(*plan, plan->mesh.triangles, plan->is_flat);
+  const std::vector<int> found = folded(*plan);
   EXPECT_NE(std::find(found.begin(), found.end(), 10), found.end());
   EXPECT_LE(found.size(), 6);
   plan->is_flat.assign(plan->is_flat.size(), 1);
-  EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+  EXPECT_TRUE(folded(*plan).empty());
 }
 
 TEST(TemplateFlips, ReleasesAsManyRingsAround) {
@@ -76,7 +80,7 @@ TEST(TemplateFlips, PassesCalmWhatWasDisturbed) {
   }
   EXPECT_LT(last, 0.02 * first);
   EXPECT_LT((plan->positions - rest).rowwise().norm().maxCoeff(), 5e-4 * plan->diagonal);
-  EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+  EXPECT_TRUE(folded(*plan).empty());
 }
 
 TEST(TemplateFlips, FoldsAreTakenBackByWhatIsAroundThem) {
@@ -92,39 +96,78 @@ TEST(TemplateFlips, FoldsAreTakenBackByWhatIsAroundThem) {
     for (double& x : plan->positions.row(v)) x += 0.05 * plan->diagonal * noise(random);
     for (double& x : plan->maps.row(v)) x += 0.1 * noise(random);
   }
-  ASSERT_GT(flipped(*plan, plan->mesh.triangles, plan->is_flat).size(), 3);
+  ASSERT_GT(folded(*plan).size(), 3);
   EXPECT_THAT(heal(*plan), testing::HasSubstr(" turned back, "));
-  EXPECT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
+  EXPECT_TRUE(folded(*plan).empty());
   // All around is at rest, and that is what fits.
   EXPECT_LT((plan->positions - rest).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT((plan->trust.array() < 1).count(), 200);
 }
 
-// A sliver's long side bends with what it is on, but the triangle as given has its ends alone.
-TEST(TemplateFlips, SliversGiveWayWithinTheirSurface) {
-  const double height = 1e-3, bend = 3e-3;
+TEST(TemplateFlips, WhatTurnedOverWithItsMapsIsTakenBackToo) {
+  const auto plan = plate(24);
+  const Positions rest = plan->positions;
+  const int middle = static_cast<int>(plan->mesh.triangles.rows()) / 2;
+  const std::vector<char> inside = around(*plan, {middle}, 2);
+  distrust(*plan, {middle}, 2);
+  // By half a turn about an axis within the plate, through the middle.
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::RowVector3d at = rest.row(plan->mesh.triangles(middle, 0));
+  for (Index v = 0; v < rest.rows(); ++v) {
+    if (inside[static_cast<size_t>(v)] == 0) continue;
+    plan->positions.row(v) = at + (rest.row(v) - at) * turn.transpose();
+    plan->maps.row(v) = turn.reshaped<Eigen::RowMajor>().transpose();
+  }
+  const std::vector<int> by_its_maps = folded(*plan), found = slivers(*plan);
+  ASSERT_EQ(std::count(by_its_maps.begin(), by_its_maps.end(), middle), 0);
+  ASSERT_EQ(std::count(found.begin(), found.end(), middle), 1);
+  EXPECT_THAT(heal(*plan), testing::HasSubstr(" turned back, "));
+  EXPECT_TRUE(folded(*plan).empty());
+  EXPECT_TRUE(slivers(*plan).empty());
+  EXPECT_LT((plan->positions - rest).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+/// Beside a plate's corner a triangle as long as its side and as high as told; it is the first. The side is bent by as
+/// much, with what is on it, but the triangle as given has its ends alone.
+std::unique_ptr<EditPlan> bent_at_a_sliver(double height, double bend) {
   Mesh mesh;
   mesh.positions.resize(5, 3);
   mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, -height, 0, 0.5, -1, 0, 0.5, 1, 0;
   mesh.triangles.resize(4, 3);
   mesh.triangles << 0, 2, 1, 0, 3, 2, 2, 3, 1, 0, 1, 4;
   const Template of = shipped_template("box");
-  const auto plan = plan_of(of, of.defaults(), {}, mesh.positions, mesh.triangles, {});
+  auto plan = plan_of(of, of.defaults(), {}, mesh.positions, mesh.triangles, {});
   prepare(*plan, {});
   for (Index v = 0; v < plan->positions.rows(); ++v) {
     const double along = plan->positions(v, 0) - plan->positions(0, 0);
     plan->positions(v, 1) +=
         bend * plan->diagonal * std::sin(std::numbers::pi * along / (plan->positions(1, 0) - plan->positions(0, 0)));
   }
+  return plan;
+}
+
+TEST(TemplateFlips, SliversGiveWayWithinTheirSurface) {
+  const double bend = 3e-3;
+  const auto plan = bent_at_a_sliver(1e-3, bend);
   const Positions bent = plan->positions;
-  ASSERT_TRUE(flipped(*plan, plan->mesh.triangles, plan->is_flat).empty());
-  ASSERT_EQ(flipped(*plan, plan->unsplit.triangles, plan->unsplit.is_flat), (std::vector<int>{0}));
+  ASSERT_TRUE(folded(*plan).empty());
+  ASSERT_EQ(slivers(*plan), (std::vector<int>{0}));
   heal(*plan);
-  EXPECT_TRUE(flipped(*plan, plan->unsplit.triangles, plan->unsplit.is_flat).empty());
+  EXPECT_TRUE(slivers(*plan).empty());
   const Positions moved = plan->positions - bent;
   EXPECT_LT(moved.rowwise().norm().maxCoeff(), 2 * bend * plan->diagonal);
   EXPECT_EQ(moved.col(2).norm(), 0);
   EXPECT_EQ(moved.bottomRows(moved.rows() - 3).norm(), 0);
+}
+
+TEST(TemplateFlips, FlatTrianglesAreTurnedBackToo) {
+  const auto plan = bent_at_a_sliver(1e-6, 3e-3);
+  const auto area = [&] { return area_vectors(plan->positions, plan->unsplit.triangles)(0, 2); };
+  const double rest = area_vectors(plan->elements.pairs.vertices, plan->unsplit.triangles)(0, 2);
+  ASSERT_TRUE(slivers(*plan).empty());  // It is flat at rest.
+  ASSERT_LT(area() * rest, 0);
+  heal(*plan);
+  EXPECT_GT(area() * rest, 0);
 }
 
 /// A sheet deeper in a box than that will be thick: there is no place for it. The box's vertices come first.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -91,6 +92,25 @@ TEST_P(ShippedTemplates, AreSurfacesEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedTemplates, testing::ValuesIn(shipped_templates()),
                          [](const auto& instance) { return instance.param; });
+
+TEST(ShippedLamp, LeansAsAWhole) {
+  const Template of = shipped_template("lamp");
+  VectorXd leaning = of.defaults();
+  leaning[of.parameter("lean")] = 0.3;
+  const double height = leaning[of.parameter("height")];
+  const double shade = height - leaning[of.parameter("shade_height")] / 2;
+  const Mesh upright = template_mesh(of, of.defaults(), {64, nullptr}),
+             leant = template_mesh(of, leaning, {64, nullptr});
+  // Widest is the shade: it has its width still, and its middle is where the stand ends.
+  EXPECT_NEAR(extents(leant)[2], extents(upright)[2], 0.01);
+  double left = 1e9, right = -1e9;
+  for (const auto& at : leant.positions.rowwise()) {
+    if (at[1] < shade - 0.05) continue;
+    left = std::min(left, at[0]);
+    right = std::max(right, at[0]);
+  }
+  EXPECT_NEAR((left + right) / 2, 0.3 * shade, 0.01);
+}
 
 TEST(TemplateFit, FindsABallAnywhere) {
   const Template of = ball();
