@@ -83,6 +83,53 @@ TEST(TemplateFlips, PassesCalmWhatWasDisturbed) {
   EXPECT_TRUE(folded(*plan).empty());
 }
 
+/// By how much turned about the y axis, in the mean.
+double spin(const Positions& before, const Positions& after) {
+  const double sine = before.col(2).dot(after.col(0)) - before.col(0).dot(after.col(2));
+  return std::atan2(sine, before.col(0).dot(after.col(0)) + before.col(2).dot(after.col(2)));
+}
+
+TEST(TemplateFlips, TurnsThatNothingTellsOfAreTakenOut) {
+  const Template of = shipped_template("lamp");
+  const Mesh mesh = template_mesh(of, of.defaults(), {24, nullptr});
+  const auto plan = plan_of(of, of.defaults(), {}, mesh.positions, mesh.triangles, {});
+  prepare(*plan, {});
+  track(*plan, of.defaults());
+  move_as_whole(*plan);
+  ASSERT_EQ(plan->idle.cols(), 1);
+  const Positions about = plan->positions.rowwise() - plan->idle_about;
+  Positions turned(about.rows(), 3), lifted = Positions::Zero(about.rows(), 3);
+  turned << about.col(2), Eigen::VectorXd::Zero(about.rows()), -about.col(0);
+  lifted.col(1).setConstant(0.1);
+  Positions moved = turned + lifted;
+  stay(*plan, moved);
+  EXPECT_LT((moved - lifted).cwiseAbs().maxCoeff(), 1e-3);
+  // A sheet may slide and turn in its plane; a box that has sides may not.
+  const auto sheet = plate(6);
+  track(*sheet, sheet->source);
+  move_as_whole(*sheet);
+  EXPECT_EQ(sheet->idle.cols(), 3);
+  const Template box_template = shipped_template("box");
+  const Mesh sides = transformed(box({1, 1, 1}, 4), 1, {-0.5, -0.5, -0.5});
+  const auto boxed = plan_of(box_template, box_template.defaults(), {}, sides.positions, sides.triangles, {});
+  prepare(*boxed, {});
+  track(*boxed, boxed->source);
+  move_as_whole(*boxed);
+  EXPECT_EQ(boxed->idle.cols(), 0);
+}
+
+TEST(TemplateFlips, WhatIsRoundDoesNotSpin) {
+  const Template of = shipped_template("lamp");
+  Mesh bar = transformed(box({0.01, 0.2, 0.02}, 2), 1, {0.1, 0.4, 0});
+  const Mesh mesh = joined(template_mesh(of, of.defaults(), {32, nullptr}), bar);
+  TemplateEdit edit(of, of.defaults(), {}, mesh.positions, mesh.triangles);
+  Eigen::VectorXd target = of.defaults();
+  target[of.parameter("height")] *= 1.5;
+  const TemplateEditResult result = edit.solve(target);
+  EXPECT_EQ(result.report.stop, Termination::moved_little);
+  EXPECT_NEAR(spin(mesh.positions, result.positions), 0, 0.01);
+}
+
 TEST(TemplateFlips, FoldsAreTakenBackByWhatIsAroundThem) {
   const auto plan = plate(24);
   const Positions rest = plan->positions;
