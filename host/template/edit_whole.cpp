@@ -34,12 +34,11 @@ struct Whole {
   double square = 0, left = 0;
 };
 
-/// The displacements of what is at x by each of the motions.
-Eigen::Matrix<double, 3, 7> displacements(const Vector3d& x) {
-  Eigen::Matrix<double, 3, 7> columns;
-  columns << Eigen::Matrix3d::Identity(), Vector3d::UnitX().cross(x), Vector3d::UnitY().cross(x),
-      Vector3d::UnitZ().cross(x), x;
-  return columns;
+/// Of a displacement at x its product with those of each of the motions there.
+Motion along(const Vector3d& x, const Vector3d& moved) {
+  Motion row;
+  row << moved, x.cross(moved), x.dot(moved);
+  return row;
 }
 
 /// `grows`: what lies off the surface scales along.
@@ -49,19 +48,24 @@ Whole best_motion(const EditPlan& plan, bool grows) {
   Whole whole;
   if (!(mass > 0)) return whole;
   whole.middle = tracking.weights.transpose() * plan.positions / mass;
-  Motions told = Motions::Zero(), all = Motions::Zero();
+  Motions told = Motions::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   Motion right = Motion::Zero();
   for (Index v = 0; v < plan.positions.rows(); ++v) {
     const double weight = tracking.weights[v], gap = tracking.gaps[v];
     if (!(weight > 0)) continue;
-    const Eigen::Matrix<double, 3, 7> columns = displacements(plan.positions.row(v) - whole.middle);
-    Motion row = (tracking.directions.row(v) * columns).transpose();
+    const Vector3d at = plan.positions.row(v) - whole.middle;
+    Motion row = along(at, tracking.directions.row(v));
     if (grows) row[6] -= plan.growth * plan.rest_values[v] / tracking.field.gradients.row(v).norm();
     told += weight * row * row.transpose();
-    all += weight * columns.transpose() * columns;
+    spread += weight * at * at.transpose();
     right += weight * gap * row;
     whole.square += weight * gap * gap;
   }
+  Motions all = Motions::Zero();  // The motions' own products, summed by weight.
+  all.topLeftCorner<3, 3>().diagonal().setConstant(mass);
+  all.block<3, 3>(3, 3) = spread.trace() * Eigen::Matrix3d::Identity() - spread;
+  all(6, 6) = spread.trace();
   all.diagonal().array() += 1e-9 * all.trace();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Motions> modes(told, all);
   const auto idle = (modes.eigenvalues().array() < kIdle).count();
@@ -110,13 +114,16 @@ bool move_as_whole(EditPlan& plan) {
 
 void stay(const EditPlan& plan, Positions& moved) {
   if (plan.idle.cols() == 0) return;
-  const auto columns = [&](Index v) { return displacements(plan.positions.row(v) - plan.idle_about); };
-  Motion along = Motion::Zero();
+  Motion sum = Motion::Zero();
   for (Index v = 0; v < moved.rows(); ++v) {
-    along += plan.tracking.weights[v] * columns(v).transpose() * moved.row(v).transpose();
+    sum += plan.tracking.weights[v] * along(plan.positions.row(v) - plan.idle_about, moved.row(v));
   }
-  const Motion drift = plan.idle * (plan.idle.transpose() * along);
-  for (Index v = 0; v < moved.rows(); ++v) moved.row(v) -= (columns(v) * drift).transpose();
+  const Motion drift = plan.idle * (plan.idle.transpose() * sum);
+  const Vector3d slide = drift.head<3>(), turn = drift.segment<3>(3);
+  for (Index v = 0; v < moved.rows(); ++v) {
+    const Vector3d at = plan.positions.row(v) - plan.idle_about;
+    moved.row(v) -= (slide + turn.cross(at) + drift[6] * at).transpose();
+  }
 }
 
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll) {
