@@ -53,7 +53,7 @@ Mesh grid_surface(const GridShape& shape, const CellMap& map, const AxisValues& 
         along += upper ? 1 : -1;
         if (along >= 0 && along < shape.cells[axis] && touched(beside)) continue;
         const std::array<Index, 4> face = face_of(grid, at, axis, upper);
-        for (const size_t corner : {0, 1, 2, 0, 2, 3}) corners.push_back(number(face[corner]));
+        for (const size_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) corners.push_back(number(face[corner]));
         bounded.insert(bounded.end(), 2, static_cast<int>(c));
       }
     }

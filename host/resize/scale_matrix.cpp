@@ -72,17 +72,17 @@ Extents ScaleMatrix<Scalar>::pair_extents(int p) const {
 template <typename Scalar>
 struct ScaleMatrix<Scalar>::Block {
   Block(const ScaleMatrix& matrix, Index number) {
-    const ScaleLayout& layout = matrix.layout;
-    const auto& [x, y, z] = layout.extents;
-    const int j = static_cast<int>(number % x[1]), k = static_cast<int>(number / x[1]), width = 1 << layout.halvings;
+    const ScaleLayout& of = matrix.layout;
+    const auto& [x, y, z] = of.extents;
+    const int j = static_cast<int>(number % x[1]), k = static_cast<int>(number / x[1]), width = 1 << of.halvings;
     const int first_y = j * width, first_z = k * width;
     count_y = std::min(width, y[1] - first_y);
     count_z = std::min(width, z[2] - first_z);
     length_x = x[0];
     length = y[0];
-    line_x = layout.begins[0] + x.at(0, j, k);
-    line_y = layout.begins[1] + y.at(0, first_y, k);
-    line_z = layout.begins[2] + z.at(0, j, first_z);
+    line_x = of.begins[0] + x.at(0, j, k);
+    line_y = of.begins[1] + y.at(0, first_y, k);
+    line_z = of.begins[2] + z.at(0, j, first_z);
     stride_z = z.stride(2);
     xy = matrix.pairs[0].data() + matrix.pair_extents(0).at(0, first_y, k);
     yz = matrix.pairs[1].data() + matrix.pair_extents(1).at(0, first_y, first_z);

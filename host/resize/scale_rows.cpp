@@ -64,7 +64,8 @@ void Rows::each(const Summand& summand, const Put& put) const {
       constexpr bool kExact = std::is_same_v<Wide, double>;
       if (stride == 1) {  // A row along x lies in one piece.
         const Wide sum = summand(first, Index{length}).sum();
-        const Wide inverse_sum = kExact ? 1 / std::max<Wide>(weights_of(first, length).sum(), kLeast) : inverse[row];
+        const Wide inverse_sum =
+            kExact ? 1 / std::max(weights_of(first, length).sum(), static_cast<Wide>(kLeast)) : inverse[row];
         put(first, Index{length}, inverse_sum * sum);
         return;
       }
