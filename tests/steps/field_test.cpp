@@ -34,7 +34,7 @@ long double value_at(const Tape& tape, const VectorXd& parameters, const Eigen::
   const auto run = [&](const std::vector<TapeInstruction>& instructions) {
     for (const auto& [op, first, second] : instructions) {
       const long double a = slots[static_cast<size_t>(first)], b = slots[static_cast<size_t>(second)];
-      const auto made = [&]() -> long double {
+      const auto made = [&, op = op]() -> long double {
         switch (op) {
           case TapeOp::add:
             return a + b;

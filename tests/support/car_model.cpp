@@ -92,8 +92,8 @@ Mesh mudguard(const Assembler& made) {
 void add_wheels(Assembler& made) {
   const int around = made.steps(48);
   for (const auto& [end, x] : {std::pair{"front", kFrontAxle}, {"rear", kRearAxle}}) {
-    const auto at = [&](const Mesh& about_y) { return moved(about(2, about_y), {x, kAxleHeight, kWheelSide}); };
-    const auto add = [&](const std::string& name, const Outline& profile) {
+    const auto at = [x = x](const Mesh& about_y) { return moved(about(2, about_y), {x, kAxleHeight, kWheelSide}); };
+    const auto add = [&, end = end](const std::string& name, const Outline& profile) {
       made.add_mirrored(name + " " + end, at(turned(profile, around)));
     };
     add("tyre", tyre_profile(made));
