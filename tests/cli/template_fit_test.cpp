@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 
 #include "opencl_device.h"
@@ -32,10 +33,11 @@ Eigen::VectorXd values_in(const json& told, const Template& of) {
 TemplatePose pose_in(const json& told) {
   TemplatePose pose;
   pose.scale = told["pose"]["scale"];
-  for (int u = 0; u < 3; ++u) {
-    pose.offset[u] = told["pose"]["offset"][u];
-    for (int w = 0; w < 3; ++w) pose.rotation(u, w) = told["pose"]["rotation"][u][w];
-  }
+  const auto offset = told["pose"]["offset"].get<std::array<double, 3>>();
+  const auto rotation = told["pose"]["rotation"].get<std::array<std::array<double, 3>, 3>>();
+  pose.offset = Eigen::Map<const Eigen::RowVector3d>(offset.data());
+  for (size_t u = 0; u < 3; ++u)
+    pose.rotation.row(static_cast<int>(u)) = Eigen::Map<const Eigen::RowVector3d>(rotation[u].data());
   return pose;
 }
 

@@ -215,7 +215,7 @@ TEST(Reshape, ANeedleBesideAStraightChainLeavesItSolvable) {
   Mesh mesh = test::box({1, 1, 1}, 6);
   std::vector<int> chain;
   for (int i = 0; i <= 6; ++i) chain.push_back(vertex_nearest(mesh, {i / 6.0, 1, 1}));
-  for (const int near : {2, 4}) mesh.positions(chain[near], 0) = mesh.positions(chain[near - 1], 0) + 3e-6;
+  for (const size_t near : {2U, 4U}) mesh.positions(chain[near], 0) = mesh.positions(chain[near - 1], 0) + 3e-6;
   ReshapeOptions straight;
   straight.remesh = When::never;
   straight.straight_chains = {chain};

@@ -115,7 +115,8 @@ TEST(Assemblies, TurnWithTheModel) {
   const std::array<ResizeTarget, 3> targets = {by(1.8, 0.9, 1), by(0.9, 1, 1.8), by(1, 1.8, 0.9)};
   for (int axis = 0; axis < 3; ++axis) {
     Positions due = turned(result, axis);
-    Positions of_turned = resize(turned(model.mesh.positions, axis), model.mesh.triangles, targets[axis]).positions;
+    Positions of_turned =
+        resize(turned(model.mesh.positions, axis), model.mesh.triangles, targets[static_cast<size_t>(axis)]).positions;
     // Each keeps the low corner of its own box.
     due.rowwise() -= due.colwise().minCoeff().eval();
     of_turned.rowwise() -= of_turned.colwise().minCoeff().eval();
