@@ -32,8 +32,8 @@ struct TemplateEditResult {
   Positions positions;  ///< #V × 3, mesh units, the input's order.
   double residual = 0;  ///< Mean over vertices of |f'(v') - f(v)| / |grad f'|, as a part of D.
   double largest = 0;   ///< The largest, likewise.
-  /// Triangles turned by more than a right angle, but as far along with all around them; none that were flat. Those
-  /// that their neighbours or a corner's step aside could turn back are not among them: report.paths["flips"] tells.
+  /// Triangles turned by more than a right angle where what is around them is not; none that were flat. Those that
+  /// their neighbours or a corner's step aside could turn back are not among them: report.paths["flips"] tells.
   int flipped = 0;
   /// Vertices that follow their neighbours instead: around triangles that turned over, or told of two sides by turns.
   int released = 0;
