@@ -47,17 +47,23 @@ Positions carried_areas(const EditPlan& plan, const Triangles& triangles, const 
   return areas;
 }
 
-}  // namespace
-
-std::vector<int> folded(const EditPlan& plan) {
-  const Positions carried = carried_areas(plan, plan.mesh.triangles, plan.maps);
-  const Positions after = area_vectors(plan.positions, plan.mesh.triangles);
+/// Of `triangles` those that now face against `before`, but those flat at rest.
+std::vector<int> against(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat,
+                         const Positions& before) {
+  const Positions after = area_vectors(plan.positions, triangles);
   std::vector<int> found;
   for (Index t = 0; t < after.rows(); ++t) {
-    if (plan.is_flat[static_cast<size_t>(t)] == 0 && carried.row(t).dot(after.row(t)) < 0)
+    if (is_flat[static_cast<size_t>(t)] == 0 && before.row(t).dot(after.row(t)) < 0)
       found.push_back(static_cast<int>(t));
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<int> folded(const EditPlan& plan) {
+  const Triangles& triangles = plan.mesh.triangles;
+  return against(plan, triangles, plan.is_flat, carried_areas(plan, triangles, plan.maps));
 }
 
 Positions faced(const EditPlan& plan, const Triangles& triangles) {
@@ -70,13 +76,7 @@ Positions faced(const EditPlan& plan, const Triangles& triangles) {
 }
 
 std::vector<int> flipped(const EditPlan& plan, const Triangles& triangles, const std::vector<char>& is_flat) {
-  const Positions before = faced(plan, triangles), after = area_vectors(plan.positions, triangles);
-  std::vector<int> found;
-  for (Index t = 0; t < after.rows(); ++t) {
-    if (is_flat[static_cast<size_t>(t)] == 0 && before.row(t).dot(after.row(t)) < 0)
-      found.push_back(static_cast<int>(t));
-  }
-  return found;
+  return against(plan, triangles, is_flat, faced(plan, triangles));
 }
 
 std::vector<char> around(const EditPlan& plan, const std::vector<int>& triangles, int rings) {
