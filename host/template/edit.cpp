@@ -102,6 +102,7 @@ TemplateEditResult TemplateEdit::follow(const Eigen::VectorXd& target, int passe
   {
     const Stopwatch watch(seconds);
     Report report;
+    plan_->warp = {};  // There is no time for it.
     for (int i = 0; i < passes; ++i) report.movements.push_back(pass(*plan_, target, kDragging));
     report.passes = passes;
     if (report.movements.back() < plan_->options.tolerance * plan_->diagonal) report.stop = Termination::moved_little;

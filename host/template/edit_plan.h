@@ -19,6 +19,7 @@
 #include "cancel.h"
 #include "conjugate_gradients.h"
 #include "element_list.h"
+#include "free_form.h"
 #include "given.h"
 #include "laplacian_system.h"
 #include "measures.h"
@@ -53,6 +54,13 @@ struct Tracking {
 /// axis of a template that is round.
 using IdleMotions = Eigen::Matrix<double, 7, Eigen::Dynamic, Eigen::ColMajor, 7, 7>;
 
+/// A smooth warp of space that has taken the mesh along: what the template does not tell of, sliding along its surface
+/// above all, goes with what is around it.
+struct Warp {
+  Positions control = {};  ///< Displacements, summed up, of the free form's control points,
+  Transforms maps = {};    ///< and what they do at the vertices; empty where none is held.
+};
+
 struct EditPlan {
   Template of;
   Eigen::VectorXd source;
@@ -81,6 +89,7 @@ struct EditPlan {
   Positions rest_normals = {};       ///< Of the mesh.
   Eigen::VectorXd weights = {};      ///< m_v of vertices at which the field is known.
   std::vector<char> is_flat = {};    ///< A triangle each.
+  FreeForm free_form = {};
   int components = 1;
   std::string told_components = "one";
   double prepare_seconds = 0;
@@ -94,6 +103,7 @@ struct EditPlan {
   Eigen::VectorXd trust = {};  ///< Parts of m_v: less where the template asks for what the mesh cannot do.
   double growth = 1;           ///< Of the template as a whole: what lies off its surface grows along.
   Tracking tracking = {};
+  Warp warp = {};
   IdleMotions idle = {};
   Eigen::RowVector3d idle_about = Eigen::RowVector3d::Zero();
   GradientsWork<Eigen::VectorXd> work = {};
@@ -124,7 +134,10 @@ void aim(EditPlan& plan);
 // edit_whole.cpp
 /// Moves, turns and scales the whole mesh where that is most of what it has to do. Whether it did.
 bool move_as_whole(EditPlan& plan);
-/// Takes the idle motions, as move_as_whole() last found them, out of a pass's displacements: passes would drift along.
+/// Of where the mesh is: the idle motions, and their displacements of the vertices, each of mean square 1.
+void find_idle(EditPlan& plan);
+std::vector<Positions> idle_displacements(const EditPlan& plan);
+/// Takes the idle motions, as last found, out of a pass's displacements: passes would drift along.
 void stay(const EditPlan& plan, Positions& moved);
 /// Moves the mesh to where the target's template is where that is the source's, moved, turned and scaled. False, and
 /// nothing has moved, where it is not.

@@ -24,7 +24,7 @@ using Eigen::Index;
 
 constexpr double kLongest = 0.05;            // Of D: longer edges are split.
 constexpr int kMostMore = 50000;             // Triangles by splitting: it is there for meshes of few.
-constexpr double kReach = 0.01;              // Of D: what is smaller follows its surroundings rather than the template.
+constexpr double kReach = 0.003;             // Of D: what is smaller follows its surroundings rather than the template.
 constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
 constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
 constexpr double kGuidance = 0.1;            // Of the mesh's normals: enough where edges tell of none.
@@ -83,6 +83,7 @@ void make(EditPlan& plan, const ProgressFn& progress) {
   const Backend& backend = *plan.options.backend;
   plan.field = plan.of.field(backend);
   sign(plan, unit_mesh);
+  plan.free_form = FreeForm(unit_mesh.positions);
   plan.is_flat = flat_triangles(unit_mesh.positions, unit_mesh.triangles);
   plan.unsplit.is_flat = flat_triangles(unit_mesh.positions, plan.unsplit.triangles);
   const std::vector<int> component = components(unit_mesh.triangles, static_cast<int>(unit_mesh.positions.rows()));
@@ -160,6 +161,7 @@ void reset(EditPlan& plan) {
   plan.positions = plan.elements.pairs.vertices;
   plan.maps = identities(plan.positions.rows());
   plan.growth = 1;
+  plan.warp = {};
   plan.trust.setOnes(plan.weights.size());
 }
 

@@ -112,6 +112,25 @@ bool move_as_whole(EditPlan& plan) {
   return true;
 }
 
+void find_idle(EditPlan& plan) {
+  const Whole whole = best_motion(plan, false);
+  plan.idle = whole.idle;
+  plan.idle_about = whole.middle;
+}
+
+std::vector<Positions> idle_displacements(const EditPlan& plan) {
+  std::vector<Positions> result(static_cast<size_t>(plan.idle.cols()), Positions(plan.positions.rows(), 3));
+  const double root = std::sqrt(plan.tracking.weights.sum());
+  for (Index k = 0; k < plan.idle.cols(); ++k) {
+    const Vector3d slide = plan.idle.col(k).head<3>(), turn = plan.idle.col(k).segment<3>(3);
+    for (Index v = 0; v < plan.positions.rows(); ++v) {
+      const Vector3d at = plan.positions.row(v) - plan.idle_about;
+      result[static_cast<size_t>(k)].row(v) = root * (slide + turn.cross(at) + plan.idle(6, k) * at).transpose();
+    }
+  }
+  return result;
+}
+
 void stay(const EditPlan& plan, Positions& moved) {
   if (plan.idle.cols() == 0) return;
   Motion sum = Motion::Zero();

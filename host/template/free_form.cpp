@@ -1,0 +1,224 @@
+#include "free_form.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+namespace swage {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int kCells = 4;              // Along the longest side; along others in proportion to the root of theirs.
+constexpr double kThin = 1e-6;         // Of the longest side: a box is no thinner.
+constexpr double kBending = 4e-5;      // What squared second differences count, against squares of what is asked for,
+constexpr double kFineBending = 1e-3;  // those of the finer ones,
+constexpr double kStill = 3e-4;  // and first differences: what little is told of turning the nearly round is noise.
+constexpr double kTaut = 3e-10;  // What moves as one is the grid's.
+
+/// The three quadratic B-splines that are not zero within a cell, and their slopes.
+Vector3d spline(double u) { return {0.5 * (1 - u) * (1 - u), 0.5 + u * (1 - u), 0.5 * u * u}; }
+Vector3d spline_slope(double u) { return {u - 1, 1 - 2 * u, u}; }
+
+}  // namespace
+
+FreeForm::FreeForm(const Positions& rest) {
+  const Eigen::Array3d low = rest.colwise().minCoeff().transpose();
+  const Eigen::Array3d sides = rest.colwise().maxCoeff().transpose().array() - low;
+  const Eigen::Array3d thick = sides.max(kThin * sides.maxCoeff());
+  cells_ = (kCells * (thick / thick.maxCoeff()).sqrt()).round().cast<int>().max(1);
+  widths_ = thick / cells_.cast<double>();
+  inside_.resize(static_cast<size_t>(cells_.prod()));
+  for (const auto& x : rest.rowwise()) {
+    const Eigen::Array3d at = (x.transpose().array() - low) / widths_;
+    const Eigen::Array3i place = at.cast<int>().min(cells_ - 1);
+    const int cell = (place[0] * cells_[1] + place[1]) * cells_[2] + place[2];
+    inside_[static_cast<size_t>(cell)].push_back(static_cast<int>(sites_.size()));
+    sites_.push_back({cell, at - place.cast<double>()});
+  }
+  bending_ = bending();
+}
+
+/// First those of the grid, then those of x, y and z alone.
+std::array<int, FreeForm::kOfCell> FreeForm::control_of(int cell) const {
+  const Eigen::Array3i place(cell / cells_[2] / cells_[1], cell / cells_[2] % cells_[1], cell % cells_[2]);
+  std::array<int, kOfCell> control{};
+  size_t next = 0;
+  for (int i = 0; i < 27; ++i) {
+    control[next++] =
+        ((place[0] + i / 9) * (cells_[1] + 2) + place[1] + i / 3 % 3) * (cells_[2] + 2) + place[2] + i % 3;
+  }
+  int first = (cells_ + 2).prod();
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < kFiner + 2; ++i) control[next++] = first + kFiner * place[k] + i;
+    first += kFiner * cells_[k] + 2;
+  }
+  return control;
+}
+
+FreeForm::Splines FreeForm::splines(const Site& site) const {
+  Splines result;
+  Matrix3d values, slopes;
+  for (int k = 0; k < 3; ++k) {
+    values.col(k) = spline(site.at[k]);
+    slopes.col(k) = spline_slope(site.at[k]) / widths_[k];
+  }
+  for (int i = 0; i < 27; ++i) {
+    const int x = i / 9, y = i / 3 % 3, z = i % 3;
+    result.of[static_cast<size_t>(i)] = i;
+    result.values[i] = values(x, 0) * values(y, 1) * values(z, 2);
+    result.gradients.row(i) << slopes(x, 0) * values(y, 1) * values(z, 2), values(x, 0) * slopes(y, 1) * values(z, 2),
+        values(x, 0) * values(y, 1) * slopes(z, 2);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const int place = std::min(static_cast<int>(kFiner * site.at[k]), kFiner - 1);
+    const double u = kFiner * site.at[k] - place;
+    const int i = 27 + 3 * k;
+    for (int j = 0; j < 3; ++j) result.of[static_cast<size_t>(i + j)] = 27 + (kFiner + 2) * k + place + j;
+    result.values.segment<3>(i) = spline(u);
+    result.gradients.middleRows<3>(i).setZero();
+    result.gradients.col(k).segment<3>(i) = kFiner / widths_[k] * spline_slope(u);
+  }
+  return result;
+}
+
+/// The squares of second differences, as of a thin plate, and a little of the first.
+MatrixXd FreeForm::bending() const {
+  const Eigen::Array3i count = cells_ + 2, fine = kFiner * cells_ + 2;
+  const Eigen::Array3i stride(count[1] * count[2], count[2], 1);
+  MatrixXd sum = MatrixXd::Zero(count.prod() + fine.sum(), count.prod() + fine.sum());
+  const auto add = [&](double weight, std::initializer_list<std::pair<int, double>> difference) {
+    for (const auto& [i, a] : difference) {
+      for (const auto& [j, b] : difference) sum(i, j) += weight * a * b;
+    }
+  };
+  for (int at = 0; at < count.prod(); ++at) {
+    const Eigen::Array3i left = count - Eigen::Array3i(at / stride[0], at / stride[1] % count[1], at % count[2]);
+    for (int k = 0; k < 3; ++k) {
+      const int step = stride[k];
+      if (left[k] > 1) add(kStill, {{at, -1}, {at + step, 1}});
+      if (left[k] > 2) add(kBending, {{at, 1}, {at + step, -2}, {at + 2 * step, 1}});
+      for (int m = k + 1; m < 3; ++m) {
+        const int aside = stride[m];
+        if (left[k] > 1 && left[m] > 1) {
+          add(2 * kBending, {{at, 1}, {at + step, -1}, {at + aside, -1}, {at + step + aside, 1}});
+        }
+      }
+    }
+  }
+  int at = count.prod();
+  for (int k = 0; k < 3; ++k) {
+    for (int left = fine[k]; left > 0; --left, ++at) {
+      add(kTaut, {{at, 1}});
+      if (left > 1) add(kStill, {{at, -1}, {at + 1, 1}});
+      if (left > 2) add(kFineBending, {{at, 1}, {at + 1, -2}, {at + 2, 1}});
+    }
+  }
+  return sum;
+}
+
+/// What each control point's displacement is multiplied by in the mean product of d and another.
+Positions FreeForm::products(const Positions& other, const VectorXd& weights) const {
+  Positions sums = Positions::Zero(bending_.rows(), 3);
+  for (size_t cell = 0; cell < inside_.size(); ++cell) {
+    const std::array<int, kOfCell> control = control_of(static_cast<int>(cell));
+    for (const int v : inside_[cell]) {
+      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
+      for (int i = 0; i < kOfSite; ++i) {
+        const auto of = static_cast<size_t>(splines.of[static_cast<size_t>(i)]);
+        sums.row(control[of]) += weights[v] * splines.values[i] * other.row(v);
+      }
+    }
+  }
+  return sums / weights.sum();
+}
+
+Positions FreeForm::fit(const Positions& directions, const VectorXd& amounts, const VectorXd& weights,
+                        const std::vector<Positions>& idle) const {
+  /// Normal equations of a cell's control points: block by block, the lower ones.
+  struct Told {
+    MatrixXd matrix;
+    VectorXd right;
+  };
+  const double mass = weights.sum();
+  std::vector<Told> told(inside_.size());
+#pragma omp parallel for schedule(dynamic)
+  for (size_t cell = 0; cell < inside_.size(); ++cell) {
+    MatrixXd& matrix = told[cell].matrix;
+    VectorXd& right = told[cell].right;
+    matrix.setZero(3 * kOfCell, 3 * kOfCell);
+    right.setZero(3 * kOfCell);
+    for (const int v : inside_[cell]) {
+      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
+      const Vector3d direction = directions.row(v);
+      const double weight = weights[v] / mass;
+      const Matrix3d square = weight * direction * direction.transpose();
+      for (int i = 0; i < kOfSite; ++i) {
+        const int row = 3 * splines.of[static_cast<size_t>(i)];
+        right.segment<3>(row) += weight * splines.values[i] * amounts[v] * direction;
+        for (int j = 0; j <= i; ++j) {
+          matrix.block<3, 3>(row, 3 * splines.of[static_cast<size_t>(j)]) +=
+              splines.values[i] * splines.values[j] * square;
+        }
+      }
+    }
+  }
+  const Index count = bending_.rows();
+  MatrixXd matrix = MatrixXd::Zero(3 * count, 3 * count);
+  VectorXd right = VectorXd::Zero(3 * count);
+  for (Index j = 0; j < count; ++j) {
+    for (Index i = j; i < count; ++i) matrix.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(bending_(i, j));
+  }
+  for (size_t cell = 0; cell < told.size(); ++cell) {
+    const std::array<int, kOfCell> control = control_of(static_cast<int>(cell));
+    for (int i = 0; i < kOfCell; ++i) {
+      const int row = 3 * control[static_cast<size_t>(i)];
+      right.segment<3>(row) += told[cell].right.segment<3>(3 * i);
+      for (int j = 0; j <= i; ++j) {
+        matrix.block<3, 3>(row, 3 * control[static_cast<size_t>(j)]) += told[cell].matrix.block<3, 3>(3 * i, 3 * j);
+      }
+    }
+  }
+  for (const Positions& motion : idle) {
+    const Positions product = products(motion, weights);
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(Eigen::Map<const VectorXd>(product.data(), product.size()));
+  }
+  Positions result(count, 3);
+  Eigen::Map<VectorXd>(result.data(), result.size()) = matrix.selfadjointView<Eigen::Lower>().llt().solve(right);
+  return result;
+}
+
+Positions FreeForm::displacements(const Positions& control) const {
+  Positions result = Positions::Zero(static_cast<Index>(sites_.size()), 3);
+#pragma omp parallel for schedule(static)
+  for (size_t cell = 0; cell < inside_.size(); ++cell) {
+    const Positions own = control(control_of(static_cast<int>(cell)), Eigen::all);
+    for (const int v : inside_[cell]) {
+      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
+      result.row(v) = splines.values.transpose() * own(splines.of, Eigen::all);
+    }
+  }
+  return result;
+}
+
+Transforms FreeForm::maps(const Positions& control) const {
+  Transforms result(static_cast<Index>(sites_.size()), 9);
+#pragma omp parallel for schedule(static)
+  for (size_t cell = 0; cell < inside_.size(); ++cell) {
+    const Positions own = control(control_of(static_cast<int>(cell)), Eigen::all);
+    for (const int v : inside_[cell]) {
+      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(result.row(v).data()) =
+          Matrix3d::Identity() + own(splines.of, Eigen::all).transpose() * splines.gradients;
+    }
+  }
+  return result;
+}
+
+}  // namespace swage
