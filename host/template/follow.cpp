@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "anderson.h"
 #include "cancel.h"
@@ -152,11 +153,28 @@ void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
   }
 }
 
+/// What a mesh that does not come to stand still was at best: where fewest triangles had turned over and, of such, the
+/// template was nearest.
+struct Best {
+  size_t over = 0;
+  double off = 0;  ///< Mean gap.
+  Positions positions = {};
+  Transforms maps = {};
+  VectorXd trust = {};
+
+  void look(const EditPlan& plan, size_t over_now) {
+    const double off_now = plan.tracking.gaps.cwiseAbs().mean();
+    if (positions.rows() > 0 && std::pair(over, off) <= std::pair(over_now, off_now)) return;
+    *this = {over_now, off_now, plan.positions, plan.maps, plan.trust};
+  }
+};
+
 /// Passes at the target, by `one`, until the mesh stands still with no triangle turned over, or there are enough. Where
 /// it comes no closer it goes to and fro across a crease of the field, whose slope leaps there: steps grow smaller.
 template <typename One>
 void settle(EditPlan& plan, Report& report, const One& one) {
   std::optional<Anderson> acceleration(kWindow);
+  Best best;
   Positions start, before;  // Of the last pass, and of as many as are waited for.
   int parts = 1, releases = 0, since = 0;
   const auto tell = [&] {
@@ -174,12 +192,13 @@ void settle(EditPlan& plan, Report& report, const One& one) {
     const double moved = report.movements.back();
     const bool stands = moved < plan.options.tolerance * plan.diagonal;
     if (!stands && since % kPatience != 0) continue;
-    const std::vector<int> over = releases < kReleases ? folded(plan) : std::vector<int>();
-    if (stands && over.empty()) {
+    const std::vector<int> over = folded(plan);
+    best.look(plan, over.size());
+    if (stands && (over.empty() || releases == kReleases)) {
       report.stop = Termination::moved_little;
       return;
     }
-    if (!over.empty()) {
+    if (!over.empty() && releases < kReleases) {
       distrust(plan, over, releases++ / 3);
       parts = 1;
     } else if (parts < kParts && (plan.positions - before).rowwise().norm().maxCoeff() < kAway * moved * parts) {
@@ -191,6 +210,10 @@ void settle(EditPlan& plan, Report& report, const One& one) {
     since = 0;
     acceleration.emplace(kWindow);
   }
+  best.look(plan, folded(plan).size());
+  plan.positions = best.positions;
+  plan.maps = best.maps;
+  plan.trust = best.trust;
 }
 
 }  // namespace
