@@ -65,7 +65,7 @@ TEST(TemplateMeshes, PassesCalmSlivers) {
   std::uniform_real_distribution<double> noise(-1e-5, 1e-5);
   for (double& x : plan->positions.reshaped()) x += noise(random);
   for (int i = 0; i < 300; ++i) pass(*plan, fit.parameters, kSettling);
-  EXPECT_LT((plan->positions - rest).rowwise().norm().maxCoeff(), 1e-6);
+  EXPECT_LT((plan->positions - rest).rowwise().norm().maxCoeff(), 2e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Real, TemplateMesh, testing::ValuesIn(kCases),
