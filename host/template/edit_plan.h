@@ -8,6 +8,9 @@
 // sides go, and only what lies amid the sides is told of it. Normals now are those that leave the first sum least, near
 // the mesh's. The field's, or the mesh's alone, are not what the sum asks for: where those bend within less than an
 // edge, or triangles are slivers, each pass would turn them farther than the vertices that they move.
+//
+// In solve() a smooth warp of space, the free form nearest to what tracking asks for, goes ahead in each sub-edit, and
+// within the surface a small part of J_v is the warp's: what slides along the template is told of nothing else.
 #pragma once
 
 #include <memory>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
 #include <utility>
 
 namespace swage {
@@ -80,7 +81,8 @@ FreeForm::Splines FreeForm::splines(const Site& site) const {
     const int place = std::min(static_cast<int>(kFiner * site.at[k]), kFiner - 1);
     const double u = kFiner * site.at[k] - place;
     const int i = 27 + 3 * k;
-    for (int j = 0; j < 3; ++j) result.of[static_cast<size_t>(i + j)] = 27 + (kFiner + 2) * k + place + j;
+    const auto first = result.of.begin() + i;
+    std::iota(first, first + 3, 27 + (kFiner + 2) * k + place);
     result.values.segment<3>(i) = spline(u);
     result.gradients.middleRows<3>(i).setZero();
     result.gradients.col(k).segment<3>(i) = kFiner / widths_[k] * spline_slope(u);

@@ -68,7 +68,8 @@ class TemplateEdit {
   TemplateEditResult solve(const Eigen::VectorXd& target, const ProgressFn& progress = {});
 
   /// From where the last call left the mesh one sub-edit of a few passes: for a slider while it is dragged. Called
-  /// again with the same target it comes closer.
+  /// again with the same target it comes closer. What the template tells nothing of, as where slats lie in a seat, goes
+  /// less evenly than in solve(), whose passes a smooth warp of space goes ahead of.
   TemplateEditResult follow(const Eigen::VectorXd& target, int passes = 1);
 
  private:
