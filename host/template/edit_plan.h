@@ -146,6 +146,12 @@ void stay(const EditPlan& plan, Positions& moved);
 /// nothing has moved, where it is not.
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
+// edit_warp.cpp
+/// Warps space where that is most of what tracking asks for on the way to the parameters. Whether it did.
+bool warp(EditPlan& plan, const Eigen::VectorXd& parameters);
+/// Within the surface maps become the warp's by a small part: what slides goes with what is around it.
+void lean_on_warp(EditPlan& plan);
+
 // edit_trust.cpp
 /// The triangles that face against where their corners' maps take their rest normal, but those flat at rest.
 std::vector<int> folded(const EditPlan& plan);
@@ -171,6 +177,8 @@ void let_go(EditPlan& plan, const std::vector<char>& inside);
 std::string heal(EditPlan& plan);
 
 // follow.cpp
+/// Of where the mesh is.
+void fit_maps(EditPlan& plan);
 /// Of conjugate gradients in a pass: until the mesh stands still, and while it is dragged.
 constexpr int kSettling = 15, kDragging = 6;
 /// Moves the mesh by one pass, `part` of the way, and returns how far it moved a vertex at most.

@@ -41,6 +41,11 @@ Motion along(const Vector3d& x, const Vector3d& moved) {
   return row;
 }
 
+RowVector3d displacement(const Motion& motion, const Vector3d& at) {
+  const Vector3d slide = motion.head<3>(), turn = motion.segment<3>(3);
+  return (slide + turn.cross(at) + motion[6] * at).transpose();
+}
+
 /// `grows`: what lies off the surface scales along.
 Whole best_motion(const EditPlan& plan, bool grows) {
   const Tracking& tracking = plan.tracking;
@@ -78,6 +83,14 @@ Whole best_motion(const EditPlan& plan, bool grows) {
   return whole;
 }
 
+/// Keeps what is idle.
+Whole whole_motion(EditPlan& plan) {
+  Whole whole = best_motion(plan, false);
+  plan.idle = whole.idle;
+  plan.idle_about = whole.middle;
+  return whole;
+}
+
 void move(EditPlan& plan, const Whole& whole) {
   const Vector3d turn = whole.motion.segment<3>(3);
   const double angle = turn.norm();
@@ -102,9 +115,7 @@ double mean_gap(const EditPlan& plan) {
 }  // namespace
 
 bool move_as_whole(EditPlan& plan) {
-  const Whole whole = best_motion(plan, false);
-  plan.idle = whole.idle;
-  plan.idle_about = whole.middle;
+  const Whole whole = whole_motion(plan);
   const double still = kStill * plan.diagonal;
   if (!(whole.square > plan.tracking.weights.sum() * still * still)) return false;
   if (!(whole.left < kLeft * whole.square)) return false;
@@ -112,20 +123,15 @@ bool move_as_whole(EditPlan& plan) {
   return true;
 }
 
-void find_idle(EditPlan& plan) {
-  const Whole whole = best_motion(plan, false);
-  plan.idle = whole.idle;
-  plan.idle_about = whole.middle;
-}
+void find_idle(EditPlan& plan) { whole_motion(plan); }
 
 std::vector<Positions> idle_displacements(const EditPlan& plan) {
   std::vector<Positions> result(static_cast<size_t>(plan.idle.cols()), Positions(plan.positions.rows(), 3));
   const double root = std::sqrt(plan.tracking.weights.sum());
-  for (Index k = 0; k < plan.idle.cols(); ++k) {
-    const Vector3d slide = plan.idle.col(k).head<3>(), turn = plan.idle.col(k).segment<3>(3);
-    for (Index v = 0; v < plan.positions.rows(); ++v) {
-      const Vector3d at = plan.positions.row(v) - plan.idle_about;
-      result[static_cast<size_t>(k)].row(v) = root * (slide + turn.cross(at) + plan.idle(6, k) * at).transpose();
+  for (Index v = 0; v < plan.positions.rows(); ++v) {
+    const Vector3d at = plan.positions.row(v) - plan.idle_about;
+    for (Index k = 0; k < plan.idle.cols(); ++k) {
+      result[static_cast<size_t>(k)].row(v) = root * displacement(plan.idle.col(k), at);
     }
   }
   return result;
@@ -138,10 +144,8 @@ void stay(const EditPlan& plan, Positions& moved) {
     sum += plan.tracking.weights[v] * along(plan.positions.row(v) - plan.idle_about, moved.row(v));
   }
   const Motion drift = plan.idle * (plan.idle.transpose() * sum);
-  const Vector3d slide = drift.head<3>(), turn = drift.segment<3>(3);
   for (Index v = 0; v < moved.rows(); ++v) {
-    const Vector3d at = plan.positions.row(v) - plan.idle_about;
-    moved.row(v) -= (slide + turn.cross(at) + drift[6] * at).transpose();
+    moved.row(v) -= displacement(drift, plan.positions.row(v) - plan.idle_about);
   }
 }
 

@@ -21,11 +21,6 @@ constexpr double kLeastPart = 1.0 / 64;  // but this part of the way it goes at 
 constexpr int kSubEditPasses = 2;
 constexpr int kWholeMoves = 5;    // Of a pass.
 constexpr double kBegin = 0.02;   // Of a sub-edit.
-constexpr double kFar = 0.05;     // Of D: a warp is asked for no more at a vertex,
-constexpr double kNone = 1e-7;    // Of D: for smaller gaps there is none,
-constexpr double kLeft = 0.5;     // and is none of the mesh where it leaves more of the squares.
-constexpr int kCorrections = 2;   // Of a warp, which is of first order.
-constexpr double kWarped = 0.07;  // Part of maps within the surface that is the warp's: there edges alone tell of none.
 constexpr double kSolved = 1e-4;  // Part of the error that ends conjugate gradients.
 constexpr int kWindow = 3;        // Passes that the next start is made of.
 constexpr int kPatience = 50;     // Passes until triangles that turned over are looked at,
@@ -70,25 +65,6 @@ VectorXd residual(const EditPlan& plan) {
   return result;
 }
 
-void fit_maps(EditPlan& plan) {
-  if (plan.rotation) {
-    plan.rotation->fit(plan.positions, {}, plan.maps);
-  } else {
-    plan.local_map->fit(plan.positions, vertex_normals(plan.positions, plan.mesh.triangles), plan.maps);
-  }
-  if (plan.warp.maps.rows() > 0 && !plan.rotation) {
-    for (Index v = 0; v < plan.maps.rows(); ++v) {
-      using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-      const RowVector3d normal = plan.rest_normals.row(v);
-      Eigen::Map<Rows> map(plan.maps.row(v).data());
-      Rows off = Eigen::Map<const Rows>(plan.warp.maps.row(v).data()) - map;
-      off -= (off * normal.transpose() * normal).eval();
-      map += kWarped * off;
-    }
-  }
-  aim(plan);
-}
-
 /// How far the template moves from where it is to the parameters, over the mesh, in the unit box.
 double jump_to(EditPlan& plan, const VectorXd& parameters, FieldValues& field) {
   evaluate(plan, plan.positions, parameters, FieldDerivatives::none, field);
@@ -115,27 +91,6 @@ void place(EditPlan& plan, int iterations, double part) {
   plan.positions += part * displacements;
 }
 
-/// Warps space around the mesh where that is most of what tracking asks for. Whether it did.
-bool warp(EditPlan& plan) {
-  const Tracking& tracking = plan.tracking;
-  const double most = kFar * plan.diagonal;
-  const VectorXd gaps = tracking.gaps.cwiseMax(-most).cwiseMin(most);
-  const double squares = tracking.weights.dot(gaps.cwiseAbs2());
-  const double none = kNone * plan.diagonal;
-  if (!(squares > tracking.weights.sum() * none * none)) return false;
-  find_idle(plan);
-  const Positions control = plan.free_form.fit(tracking.directions, gaps, tracking.weights, idle_displacements(plan));
-  const Positions moved = plan.free_form.displacements(control);
-  const VectorXd left = gaps - moved.cwiseProduct(tracking.directions).rowwise().sum();
-  if (!(tracking.weights.dot(left.cwiseAbs2()) < kLeft * squares)) return false;
-  plan.positions += moved;
-  if (plan.warp.control.rows() == 0) plan.warp.control.setZero(control.rows(), 3);
-  plan.warp.control += control;
-  plan.warp.maps = plan.free_form.maps(plan.warp.control);
-  fit_maps(plan);
-  return true;
-}
-
 /// Goes with a sub-edit as its begin has it: past that, what moves by half of its thickness would be told of its other
 /// side.
 void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
@@ -143,14 +98,7 @@ void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
   const VectorXd gaps = plan.tracking.gaps;
   track(plan, from + kBegin * (to - from));
   plan.tracking.gaps = gaps + (plan.tracking.gaps - gaps) / kBegin;
-  if (!warp(plan)) {
-    if (!move_as_whole(plan)) place(plan, kSettling, 1);
-    return;
-  }
-  for (int i = 0; i < kCorrections; ++i) {
-    track(plan, to);
-    if (!warp(plan)) return;
-  }
+  if (!warp(plan, to) && !move_as_whole(plan)) place(plan, kSettling, 1);
 }
 
 /// What a mesh that does not come to stand still was at best: where fewest triangles had turned over and, of such, the
@@ -217,6 +165,16 @@ void settle(EditPlan& plan, Report& report, const One& one) {
 }
 
 }  // namespace
+
+void fit_maps(EditPlan& plan) {
+  if (plan.rotation) {
+    plan.rotation->fit(plan.positions, {}, plan.maps);
+  } else {
+    plan.local_map->fit(plan.positions, vertex_normals(plan.positions, plan.mesh.triangles), plan.maps);
+  }
+  if (!plan.rotation) lean_on_warp(plan);
+  aim(plan);
+}
 
 double pass(EditPlan& plan, const VectorXd& parameters, int iterations, double part) {
   const Positions before = plan.positions;

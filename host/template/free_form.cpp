@@ -17,11 +17,12 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kCells = 4;              // Along the longest side; along others in proportion to the root of theirs.
+constexpr size_t kMostSeen = 10000;    // About, of vertices: far more than there are control points.
 constexpr double kThin = 1e-6;         // Of the longest side: a box is no thinner.
 constexpr double kBending = 4e-5;      // What squared second differences count, against squares of what is asked for,
 constexpr double kFineBending = 1e-3;  // those of the finer ones,
-constexpr double kStill = 3e-4;  // and first differences: what little is told of turning the nearly round is noise.
-constexpr double kTaut = 3e-10;  // What moves as one is the grid's.
+constexpr double kStill = 3e-4;   // and first differences: what little is told of turning the nearly round is noise,
+constexpr double kLeast = 3e-10;  // and any: nothing tells of some at all.
 
 /// The three quadratic B-splines that are not zero within a cell, and their slopes.
 Vector3d spline(double u) { return {0.5 * (1 - u) * (1 - u), 0.5 + u * (1 - u), 0.5 * u * u}; }
@@ -43,7 +44,24 @@ FreeForm::FreeForm(const Positions& rest) {
     inside_[static_cast<size_t>(cell)].push_back(static_cast<int>(sites_.size()));
     sites_.push_back({cell, at - place.cast<double>()});
   }
+  seen_ = some();
   bending_ = bending();
+}
+
+/// Evenly of each cell, in an order that is of where they are, not of how the mesh lists them.
+std::vector<std::vector<int>> FreeForm::some() const {
+  const size_t every = 1 + sites_.size() / kMostSeen;
+  if (every == 1) return inside_;
+  std::vector<std::vector<int>> some(inside_.size());
+  for (size_t cell = 0; cell < inside_.size(); ++cell) {
+    std::vector<int> ordered = inside_[cell];
+    std::sort(ordered.begin(), ordered.end(), [&](int a, int b) {
+      const Eigen::Vector3d &x = sites_[static_cast<size_t>(a)].at, &y = sites_[static_cast<size_t>(b)].at;
+      return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+    });
+    for (size_t i = every / 2; i < ordered.size(); i += every) some[cell].push_back(ordered[i]);
+  }
+  return some;
 }
 
 /// First those of the grid, then those of x, y and z alone.
@@ -94,7 +112,7 @@ FreeForm::Splines FreeForm::splines(const Site& site) const {
 MatrixXd FreeForm::bending() const {
   const Eigen::Array3i count = cells_ + 2, fine = kFiner * cells_ + 2;
   const Eigen::Array3i stride(count[1] * count[2], count[2], 1);
-  MatrixXd sum = MatrixXd::Zero(count.prod() + fine.sum(), count.prod() + fine.sum());
+  MatrixXd sum = kLeast * MatrixXd::Identity(count.prod() + fine.sum(), count.prod() + fine.sum());
   const auto add = [&](double weight, std::initializer_list<std::pair<int, double>> difference) {
     for (const auto& [i, a] : difference) {
       for (const auto& [j, b] : difference) sum(i, j) += weight * a * b;
@@ -117,7 +135,6 @@ MatrixXd FreeForm::bending() const {
   int at = count.prod();
   for (int k = 0; k < 3; ++k) {
     for (int left = fine[k]; left > 0; --left, ++at) {
-      add(kTaut, {{at, 1}});
       if (left > 1) add(kStill, {{at, -1}, {at + 1, 1}});
       if (left > 2) add(kFineBending, {{at, 1}, {at + 1, -2}, {at + 2, 1}});
     }
@@ -125,79 +142,75 @@ MatrixXd FreeForm::bending() const {
   return sum;
 }
 
-/// What each control point's displacement is multiplied by in the mean product of d and another.
-Positions FreeForm::products(const Positions& other, const VectorXd& weights) const {
-  Positions sums = Positions::Zero(bending_.rows(), 3);
-  for (size_t cell = 0; cell < inside_.size(); ++cell) {
-    const std::array<int, kOfCell> control = control_of(static_cast<int>(cell));
-    for (const int v : inside_[cell]) {
-      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
-      for (int i = 0; i < kOfSite; ++i) {
-        const auto of = static_cast<size_t>(splines.of[static_cast<size_t>(i)]);
-        sums.row(control[of]) += weights[v] * splines.values[i] * other.row(v);
+/// Of a cell's control points the lower blocks of the sum over its vertices of (row_v . d(v))².
+MatrixXd FreeForm::squares(int cell, const Positions& rows) const {
+  MatrixXd sum = MatrixXd::Zero(3 * kOfCell, 3 * kOfCell);
+  for (const int v : seen_[static_cast<size_t>(cell)]) {
+    const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
+    const Matrix3d square = rows.row(v).transpose() * rows.row(v);
+    for (int i = 0; i < kOfSite; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        sum.block<3, 3>(3 * splines.of[static_cast<size_t>(i)], 3 * splines.of[static_cast<size_t>(j)]) +=
+            splines.values[i] * splines.values[j] * square;
       }
     }
   }
-  return sums / weights.sum();
+  return sum;
+}
+
+/// What each control point's displacement is multiplied by in the sum over vertices of d(v) . other_v.
+Positions FreeForm::products(const Positions& others) const {
+  Positions sums = Positions::Zero(bending_.rows(), 3);
+  for (size_t cell = 0; cell < seen_.size(); ++cell) {
+    const std::array<int, kOfCell> control = control_of(static_cast<int>(cell));
+    for (const int v : seen_[cell]) {
+      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
+      for (int i = 0; i < kOfSite; ++i) {
+        const auto of = static_cast<size_t>(splines.of[static_cast<size_t>(i)]);
+        sums.row(control[of]) += splines.values[i] * others.row(v);
+      }
+    }
+  }
+  return sums;
 }
 
 Positions FreeForm::fit(const Positions& directions, const VectorXd& amounts, const VectorXd& weights,
                         const std::vector<Positions>& idle) const {
-  /// Normal equations of a cell's control points: block by block, the lower ones.
-  struct Told {
-    MatrixXd matrix;
-    VectorXd right;
-  };
-  const double mass = weights.sum();
-  std::vector<Told> told(inside_.size());
+  double mass = 0;
+  for (const std::vector<int>& seen : seen_) mass += weights(seen).sum();
+  const VectorXd parts = weights / mass;
+  const Positions rows = parts.cwiseSqrt().asDiagonal() * directions;
+  std::vector<MatrixXd> told(seen_.size());
 #pragma omp parallel for schedule(dynamic)
-  for (size_t cell = 0; cell < inside_.size(); ++cell) {
-    MatrixXd& matrix = told[cell].matrix;
-    VectorXd& right = told[cell].right;
-    matrix.setZero(3 * kOfCell, 3 * kOfCell);
-    right.setZero(3 * kOfCell);
-    for (const int v : inside_[cell]) {
-      const Splines splines = this->splines(sites_[static_cast<size_t>(v)]);
-      const Vector3d direction = directions.row(v);
-      const double weight = weights[v] / mass;
-      const Matrix3d square = weight * direction * direction.transpose();
-      for (int i = 0; i < kOfSite; ++i) {
-        const int row = 3 * splines.of[static_cast<size_t>(i)];
-        right.segment<3>(row) += weight * splines.values[i] * amounts[v] * direction;
-        for (int j = 0; j <= i; ++j) {
-          matrix.block<3, 3>(row, 3 * splines.of[static_cast<size_t>(j)]) +=
-              splines.values[i] * splines.values[j] * square;
-        }
-      }
-    }
-  }
+  for (int cell = 0; cell < static_cast<int>(seen_.size()); ++cell)
+    told[static_cast<size_t>(cell)] = squares(cell, rows);
   const Index count = bending_.rows();
-  MatrixXd matrix = MatrixXd::Zero(3 * count, 3 * count);
-  VectorXd right = VectorXd::Zero(3 * count);
+  MatrixXd matrix = MatrixXd::Zero(3 * count, 3 * count);  // The lower blocks.
   for (Index j = 0; j < count; ++j) {
     for (Index i = j; i < count; ++i) matrix.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(bending_(i, j));
   }
   for (size_t cell = 0; cell < told.size(); ++cell) {
     const std::array<int, kOfCell> control = control_of(static_cast<int>(cell));
     for (int i = 0; i < kOfCell; ++i) {
-      const int row = 3 * control[static_cast<size_t>(i)];
-      right.segment<3>(row) += told[cell].right.segment<3>(3 * i);
       for (int j = 0; j <= i; ++j) {
-        matrix.block<3, 3>(row, 3 * control[static_cast<size_t>(j)]) += told[cell].matrix.block<3, 3>(3 * i, 3 * j);
+        matrix.block<3, 3>(3 * control[static_cast<size_t>(i)], 3 * control[static_cast<size_t>(j)]) +=
+            told[cell].block<3, 3>(3 * i, 3 * j);
       }
     }
   }
   for (const Positions& motion : idle) {
-    const Positions product = products(motion, weights);
+    const Positions product = products(parts.asDiagonal() * motion);
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(Eigen::Map<const VectorXd>(product.data(), product.size()));
   }
-  Positions result(count, 3);
-  Eigen::Map<VectorXd>(result.data(), result.size()) = matrix.selfadjointView<Eigen::Lower>().llt().solve(right);
-  return result;
+  Positions control = products(parts.cwiseProduct(amounts).asDiagonal() * directions);
+  Eigen::Map<VectorXd> flat(control.data(), control.size());
+  const Eigen::LLT<Eigen::Ref<MatrixXd>> factored(matrix);
+  factored.solveInPlace(flat);
+  return control;
 }
 
 Positions FreeForm::displacements(const Positions& control) const {
-  Positions result = Positions::Zero(static_cast<Index>(sites_.size()), 3);
+  Positions result(static_cast<Index>(sites_.size()), 3);
 #pragma omp parallel for schedule(static)
   for (size_t cell = 0; cell < inside_.size(); ++cell) {
     const Positions own = control(control_of(static_cast<int>(cell)), Eigen::all);

@@ -17,7 +17,7 @@ class FreeForm {
   explicit FreeForm(const Positions& rest);
 
   /// The displacements of the control points that minimise the mean by weight of (directions_v . d(v) - amounts_v)²
-  /// and bending, with no part of the `idle` displacements, each of mean square 1. Weights not all zero.
+  /// and bending, with no part of the `idle` displacements, each of mean square 1. Of many vertices some are looked at.
   Positions fit(const Positions& directions, const Eigen::VectorXd& amounts, const Eigen::VectorXd& weights,
                 const std::vector<Positions>& idle) const;
 
@@ -45,13 +45,16 @@ class FreeForm {
 
   Splines splines(const Site& site) const;
   std::array<int, kOfCell> control_of(int cell) const;
-  Positions products(const Positions& other, const Eigen::VectorXd& weights) const;
+  std::vector<std::vector<int>> some() const;
   Eigen::MatrixXd bending() const;
+  Eigen::MatrixXd squares(int cell, const Positions& rows) const;
+  Positions products(const Positions& others) const;
 
   Eigen::Array3i cells_ = {0, 0, 0};  ///< Along each axis.
   Eigen::Array3d widths_ = {0, 0, 0};
   std::vector<Site> sites_;               ///< Of the vertices.
-  std::vector<std::vector<int>> inside_;  ///< Vertices of each cell.
+  std::vector<std::vector<int>> inside_;  ///< Vertices of each cell,
+  std::vector<std::vector<int>> seen_;    ///< and those looked at.
   Eigen::MatrixXd bending_;               ///< Its square of the control points.
 };
 
