@@ -251,7 +251,8 @@ TEST(TemplateFlips, LetsGoOfWhatIsToldOfBothSides) {
 TEST(TemplateFlips, TellsWhereManyDoNotFollow) {
   const auto is_told = testing::Contains(testing::HasSubstr(" go with their neighbours rather than with the template"));
   const Mesh few = sheet_in_a_box(6), many = sheet_in_a_box(2);
-  const TemplateEditResult of_few = made_thinner(few, 150, 0.95), of_many = made_thinner(many, 150);
+  const TemplateEditResult of_few = made_thinner(few, 150, 0.7), of_many = made_thinner(many, 150);
+  ASSERT_GT(of_few.released, 0);
   ASSERT_LT(10 * of_few.released, few.positions.rows());
   ASSERT_GT(10 * of_many.released, many.positions.rows());
   EXPECT_THAT(of_few.report.warnings, testing::Not(is_told));
