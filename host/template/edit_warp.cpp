@@ -1,4 +1,7 @@
 // A smooth warp of space that takes the mesh along, ahead of its passes.
+#include <algorithm>
+#include <utility>
+
 #include "edit_plan.h"
 
 namespace swage {
@@ -14,6 +17,12 @@ constexpr double kLeft = 0.5;     // and where it leaves more of their squares i
 constexpr int kCorrections = 2;   // It is of first order.
 constexpr double kWarped = 0.07;  // Part of maps within the surface: there edges alone tell of none.
 
+bool folds(const Transforms& maps) {
+  const auto turns_over = [](const auto& map) { return !(Rows(Eigen::Map<const Rows>(map.data())).determinant() > 0); };
+  return std::any_of(maps.rowwise().begin(), maps.rowwise().end(), turns_over);
+}
+
+/// Once more of the warp, unless that helps little or folds space, where the template asks for what cannot be.
 bool step(EditPlan& plan) {
   const Tracking& tracking = plan.tracking;
   const double most = kFar * plan.diagonal, none = kNone * plan.diagonal;
@@ -25,10 +34,12 @@ bool step(EditPlan& plan) {
   const Positions moved = plan.free_form.displacements(control);
   const VectorXd left = gaps - moved.cwiseProduct(tracking.directions).rowwise().sum();
   if (!(tracking.weights.dot(left.cwiseAbs2()) < kLeft * squares)) return false;
-  plan.positions += moved;
   Warp& warp = plan.warp;
-  warp.control = warp.control.rows() > 0 ? Positions(warp.control + control) : control;
-  warp.maps = plan.free_form.maps(warp.control);
+  Positions in_all = warp.control.rows() > 0 ? Positions(warp.control + control) : control;
+  Transforms maps = plan.free_form.maps(in_all);
+  if (folds(maps)) return false;
+  plan.positions += moved;
+  warp = {std::move(in_all), std::move(maps)};
   fit_maps(plan);
   return true;
 }

@@ -26,7 +26,7 @@ constexpr int kWindow = 3;        // Passes that the next start is made of.
 constexpr int kPatience = 50;     // Passes until triangles that turned over are looked at,
 constexpr int kReleases = 16;     // and how often they are released.
 constexpr double kAway = 5;       // Steps that they go together at least, unless they go to and fro,
-constexpr int kParts = 64;        // and are then as many parts of what passes ask for, at most.
+constexpr int kParts = 256;       // and are then as many parts of what passes ask for, at most.
 
 Eigen::Map<const Positions> rows(const VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }
 Eigen::Map<Positions> rows(VectorXd& flat) { return {flat.data(), flat.size() / 3, 3}; }

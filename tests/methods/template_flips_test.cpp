@@ -241,6 +241,7 @@ TEST(TemplateFlips, LetsGoOfWhatIsToldOfBothSides) {
   EXPECT_THAT(result.report.paths.at("steps"), testing::MatchesRegex("whole|1/[0-9]+ in the end"));
   EXPECT_GT(result.released, 0);
   EXPECT_EQ(result.flipped, 0);
+  EXPECT_EQ(result.report.paths.at("flips"), "none");
   const Eigen::VectorXd z = result.positions.col(2);
   const Index count = box({1, 1, 1}, 6).positions.rows();
   EXPECT_NEAR(z.head(count).maxCoeff(), 0.26, 0.01);
