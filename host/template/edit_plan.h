@@ -147,8 +147,9 @@ void stay(const EditPlan& plan, Positions& moved);
 bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& poll);
 
 // edit_warp.cpp
-/// Warps space where that is most of what tracking asks for on the way to the parameters. Whether it did.
-bool warp(EditPlan& plan, const Eigen::VectorXd& parameters);
+/// Warps space where that is most of what tracking asks for on the way to the parameters. Whether it did. `behind` are
+/// the gaps of before: where the mesh did not follow, less is asked of it.
+bool warp(EditPlan& plan, const Eigen::VectorXd& parameters, const Eigen::VectorXd& behind);
 /// Within the surface maps become the warp's by a small part: what slides goes with what is around it.
 void lean_on_warp(EditPlan& plan);
 

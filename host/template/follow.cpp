@@ -95,10 +95,10 @@ void place(EditPlan& plan, int iterations, double part) {
 /// side.
 void foresee(EditPlan& plan, const VectorXd& from, const VectorXd& to) {
   track(plan, from);
-  const VectorXd gaps = plan.tracking.gaps;
+  const VectorXd behind = plan.tracking.gaps;
   track(plan, from + kBegin * (to - from));
-  plan.tracking.gaps = gaps + (plan.tracking.gaps - gaps) / kBegin;
-  if (!warp(plan, to) && !move_as_whole(plan)) place(plan, kSettling, 1);
+  plan.tracking.gaps = behind + (plan.tracking.gaps - behind) / kBegin;
+  if (!warp(plan, to, behind) && !move_as_whole(plan)) place(plan, kSettling, 1);
 }
 
 /// What a mesh that does not come to stand still was at best: where fewest triangles had turned over and, of such, the
