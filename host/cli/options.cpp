@@ -40,7 +40,7 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   app.add_option(
          "--backend", common.backend,
          "Where the local steps run: auto, cpu or opencl (SWAGE_BACKEND, else auto: OpenCL where there is a GPU, "
-         "for stylize and resize any device, and the mesh is large)")
+         "for all but reshape any device, and the work is large)")
       ->group(group)
       ->type_name("NAME");
   app.add_option("--device", common.device,

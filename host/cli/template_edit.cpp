@@ -52,15 +52,15 @@ struct EditRun {
 };
 
 EditRun edit_run(const EditJob& job, const MeshFile& file, const KnownFit& known, const Settings& settings,
-                 const std::shared_ptr<Backend>& backend, const CommonOptions& common, RunSeconds& seconds) {
-  FitOptions fitting = job.source.options;
+                 const BackendChoice& choice, const std::shared_ptr<Backend>& backend, const CommonOptions& common,
+                 RunSeconds& seconds) {
   TemplateEditOptions options = job.options;
-  fitting.backend = options.backend = backend;
+  options.backend = backend;
   EditRun run{file, known, settings, {}, {}, {}, {}};
   const size_t count = settings.count(), parts = count + 2;
   with_progress(common, [&](const ProgressFn& progress) {
     const Stopwatch precompute;
-    run.fit = fit_of(known, fitting, file, part_of(progress, 0, parts));
+    run.fit = fit_of(known, job.source.options, file, choice, part_of(progress, 0, parts));
     for (size_t r = 0; r < count; ++r) run.targets.push_back(settings.on(run.fit.parameters, r));
     TemplateEdit edit = edit_of(known.of, run.fit, file, options);
     edit.prepare(part_of(progress, 1, parts));
@@ -181,7 +181,7 @@ void run(const EditJob& job, const CommonOptions& common) {
   stop_if_interrupted();
 
   const EditRun done = solve_or_fall_back(
-      choice, backend, [&] { return edit_run(job, file, known, settings, backend, common, seconds); });
+      choice, backend, [&] { return edit_run(job, file, known, settings, choice, backend, common, seconds); });
   warn(done);
   const Image picture = picture_of(job, done, common);
 

@@ -51,8 +51,13 @@ KnownFit known_fit(const std::string& name, const std::string& file) {
   return {name, std::move(of), std::move(fit)};
 }
 
-TemplateFit fit_of(const KnownFit& known, const FitOptions& options, const MeshFile& mesh, const ProgressFn& progress) {
-  if (!known.file) return fitted(known.of, mesh, options, progress);
+TemplateFit fit_of(const KnownFit& known, const FitOptions& options, const MeshFile& mesh, const BackendChoice& choice,
+                   const ProgressFn& progress) {
+  if (!known.file) {
+    FitOptions fitting = options;
+    fitting.backend = backend_of(options, choice);
+    return solve_or_fall_back(choice, fitting.backend, [&] { return fitted(known.of, mesh, fitting, progress); });
+  }
   TemplateFit fit;
   fit.parameters = known.file->parameters;
   fit.pose = known.file->pose;

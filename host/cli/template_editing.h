@@ -40,7 +40,8 @@ struct KnownFit {
 KnownFit known_fit(const std::string& name, const std::string& file);
 
 /// As the file has it, or made now. Throws as fitted() does.
-TemplateFit fit_of(const KnownFit& known, const FitOptions& options, const MeshFile& mesh, const ProgressFn& progress);
+TemplateFit fit_of(const KnownFit& known, const FitOptions& options, const MeshFile& mesh, const BackendChoice& choice,
+                   const ProgressFn& progress);
 
 /// Throws InvalidInput as TemplateEdit does, naming the mesh.
 TemplateEdit edit_of(const Template& of, const TemplateFit& fit, const MeshFile& mesh,

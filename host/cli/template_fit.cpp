@@ -93,7 +93,7 @@ void run(const FitJob& job, const CommonOptions& common) {
   RunSeconds seconds;
   const Stopwatch total, read;
   const MeshFile file = read_input(job.mesh);
-  std::shared_ptr<Backend> backend = choice.for_triangles(points_of(job.options), AutoDevices::all);
+  std::shared_ptr<Backend> backend = backend_of(job.options, choice);
   spdlog::debug("local steps: {} on {}", backend->name(), backend->device());
   seconds.read = read.seconds();
   stop_if_interrupted();

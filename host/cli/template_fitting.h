@@ -3,9 +3,11 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "backend_choice.h"
 #include "edit.h"
 #include "swage/template_fit.h"
 
@@ -18,8 +20,8 @@ CLI::Option* add_up_option(CLI::App& app, const char* name, const std::function<
 /// --up, --samples and the like.
 std::vector<CLI::Option*> add_fitting_options(CLI::App& app, FitOptions& options);
 
-/// At how many points the field is asked for.
-int points_of(const FitOptions& options);
+/// Where `auto` evaluates the field: a fit asks for it at its points as often as it has iterations.
+std::shared_ptr<Backend> backend_of(const FitOptions& options, const BackendChoice& choice);
 
 /// Throws InvalidInput as fit_template() does, naming the mesh.
 TemplateFit fitted(const Template& of, const MeshFile& file, const FitOptions& options, const ProgressFn& progress);

@@ -77,16 +77,15 @@ struct InterpolateRun {
 };
 
 InterpolateRun interpolate_run(const InterpolateJob& job, const MeshFile& file, const KnownFit& known,
-                               const std::optional<FitFile>& to, const Settings& settings,
+                               const std::optional<FitFile>& to, const Settings& settings, const BackendChoice& choice,
                                const std::shared_ptr<Backend>& backend, const CommonOptions& common,
                                RunSeconds& seconds) {
-  FitOptions fitting = job.source.options;
   TemplateEditOptions options = job.options;
-  fitting.backend = options.backend = backend;
+  options.backend = backend;
   InterpolateRun run{file, known, {}, {}, {}, {}};
   with_progress(common, [&](const ProgressFn& progress) {
     const Stopwatch precompute;
-    run.fit = fit_of(known, fitting, file, part_of(progress, 0, 3));
+    run.fit = fit_of(known, job.source.options, file, choice, part_of(progress, 0, 3));
     run.target = settings.on(to ? to->parameters : run.fit.parameters);
     TemplateEdit edit = edit_of(known.of, run.fit, file, options);
     edit.prepare(part_of(progress, 1, 3));
@@ -187,8 +186,9 @@ void run(const InterpolateJob& job, const CommonOptions& common) {
   seconds.read = read.seconds();
   stop_if_interrupted();
 
-  const InterpolateRun done = solve_or_fall_back(
-      choice, backend, [&] { return interpolate_run(job, file, known, to, settings, backend, common, seconds); });
+  const InterpolateRun done = solve_or_fall_back(choice, backend, [&] {
+    return interpolate_run(job, file, known, to, settings, choice, backend, common, seconds);
+  });
   warn(done);
   const Image picture = picture_of(job, done, common);
 

@@ -75,15 +75,15 @@ struct RetargetRun {
 };
 
 RetargetRun retarget_run(const RetargetJob& job, const MeshFile& source, const MeshFile& target, const KnownFits& known,
-                         const std::shared_ptr<Backend>& backend, const CommonOptions& common, RunSeconds& seconds) {
-  FitOptions source_fitting = job.fitting, target_fitting = job.fitting_of_target();
+                         const BackendChoice& choice, const std::shared_ptr<Backend>& backend,
+                         const CommonOptions& common, RunSeconds& seconds) {
   TemplateEditOptions options = job.options;
-  source_fitting.backend = target_fitting.backend = options.backend = backend;
+  options.backend = backend;
   RetargetRun run{source, target, known, {}, {}, {}, {}};
   with_progress(common, [&](const ProgressFn& progress) {
     const Stopwatch precompute;
-    run.source_fit = fit_of(known.source, source_fitting, source, part_of(progress, 0, 4));
-    run.target_fit = fit_of(known.target, target_fitting, target, part_of(progress, 1, 4));
+    run.source_fit = fit_of(known.source, job.fitting, source, choice, part_of(progress, 0, 4));
+    run.target_fit = fit_of(known.target, job.fitting_of_target(), target, choice, part_of(progress, 1, 4));
     TemplateEdit edit = edit_of(known.source.of, run.source_fit, source, options);
     edit.prepare(part_of(progress, 2, 4));
     stop_if_interrupted();
@@ -150,7 +150,7 @@ void run(const RetargetJob& job, const CommonOptions& common) {
   stop_if_interrupted();
 
   const RetargetRun done = solve_or_fall_back(
-      choice, backend, [&] { return retarget_run(job, source, target, known, backend, common, seconds); });
+      choice, backend, [&] { return retarget_run(job, source, target, known, choice, backend, common, seconds); });
   for (const std::string& warning : done.warnings) spdlog::warn("{}", warning);
   const Image picture = picture_of(job, done, common);
 

@@ -170,6 +170,16 @@ TEST_F(Templating, AFitOnADevice) {
   EXPECT_LT(told["residual"], 0.01);
 }
 
+TEST_F(Templating, AFitOfManyEvaluationsIsOnADevice) {
+  if (!opencl_or_skip(Precision::twice)) return;
+  const auto backend = [&](const std::string& iterations) {
+    return report({"fit", model_, "--template", "box", "--no-turns", "--samples", "500", "--volume-samples", "0",
+                   "--sigmas", "1", "--fit-iterations", iterations})["backend"];
+  };
+  EXPECT_EQ(backend("100"), "cpu");
+  EXPECT_EQ(backend("200"), "opencl");
+}
+
 TEST_F(Templating, MeshesThatAreNoCleanSurfaceAreFitted) {
   write_mesh(file("awkward.obj"), awkward());
   write_mesh(file("sheet.obj"), sheet(6));
