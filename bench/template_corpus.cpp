@@ -10,12 +10,15 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "machine.h"
 #include "mesh_index.h"
+#include "swage/backend.h"
+#include "swage/error.h"
 #include "swage/mesh_io.h"
 #include "swage/render.h"
 #include "swage/template_edit.h"
@@ -100,24 +103,31 @@ void edit(const Template& of, const TemplateFit& fit, const Mesh& mesh, Fitted& 
   }
 }
 
+/// What the program's `auto` comes to for fits.
+std::shared_ptr<Backend> fitting_backend() {
+  try {
+    return opencl_backend();
+  } catch (const Unavailable&) {
+    return cpu_backend();
+  }
+}
+
 Fitted fit(const test::ListedMesh& listed, const std::string& kind) {
+  FitOptions options;
+  options.backend = fitting_backend();
   const Mesh mesh = read_mesh(listed.path).mesh;
   const Template of = shipped_template(kind);
   const double begin = cpu_seconds();
-  const TemplateFit fit = fit_template(of, mesh.positions, mesh.triangles);
+  const TemplateFit fit = fit_template(of, mesh.positions, mesh.triangles, options);
   const double seconds = cpu_seconds() - begin;
   Fitted fitted{listed.path.stem().string(), kind, {}, {}};
   std::vector<std::string> bounds;
   for (const int p : fit.at_bound) bounds.push_back(of.parameters()[static_cast<size_t>(p)].name);
-  fitted.json = {{"mesh", listed.name},
-                 {"template", kind},
-                 {"rms", fit.residual},
-                 {"largest", fit.largest},
-                 {"excess", fit.excess},
-                 {"cpu_seconds", seconds},
-                 {"seconds", fit.report.seconds.at("solve")},
-                 {"passes", fit.report.passes},
-                 {"at_bound", bounds}};
+  fitted.json = {{"mesh", listed.name},         {"template", kind},
+                 {"rms", fit.residual},         {"largest", fit.largest},
+                 {"excess", fit.excess},        {"backend", options.backend->name()},
+                 {"cpu_seconds", seconds},      {"seconds", fit.report.seconds.at("solve")},
+                 {"passes", fit.report.passes}, {"at_bound", bounds}};
   for (size_t p = 0; p < of.parameters().size(); ++p) {
     fitted.json["parameters"][of.parameters()[p].name] = fit.parameters[static_cast<Eigen::Index>(p)];
   }
