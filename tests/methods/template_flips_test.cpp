@@ -235,7 +235,7 @@ TemplateEditResult made_thinner(const Mesh& mesh, int passes, double depth = 0.5
 }
 
 TEST(TemplateFlips, LetsGoOfWhatIsToldOfBothSides) {
-  // How many passes it takes is in the last digits' hands: 600 to 800 on several processors.
+  // How many passes it takes is in the last digits' hands: 770 to 830 with one thread and two.
   const TemplateEditResult result = made_thinner(sheet_in_a_box(6), 3000);
   EXPECT_EQ(result.report.stop, Termination::moved_little);
   EXPECT_THAT(result.report.paths.at("steps"), testing::MatchesRegex("whole|1/[0-9]+ in the end"));
