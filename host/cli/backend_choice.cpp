@@ -63,9 +63,9 @@ BackendChoice::BackendChoice(const CommonOptions& common)
   if (name_ == "opencl") asked_for_ = backend_on(device_, precision_);
 }
 
-std::shared_ptr<Backend> BackendChoice::for_triangles(int count, AutoDevices devices) const {
+std::shared_ptr<Backend> BackendChoice::for_elements(int count, AutoDevices devices) const {
   if (asked_for_) return asked_for_;
-  return count < kTrianglesForDevice ? cpu_backend() : on_device(devices);
+  return count < kElementsForDevice ? cpu_backend() : on_device(devices);
 }
 
 std::shared_ptr<Backend> BackendChoice::on_device(AutoDevices devices) const {

@@ -13,8 +13,8 @@ namespace swage::cli {
 /// What `auto` may take. A step whose reference computes singular values gains on a CPU's vector units too.
 enum class AutoDevices { no_cpus, all };
 
-/// `auto` leaves smaller meshes to the cpu: they are done before a device has built its kernels.
-inline constexpr int kTrianglesForDevice = 100000;
+/// Triangles, vertices or points; `auto` leaves fewer to the cpu: they are done before a device has built its kernels.
+inline constexpr int kElementsForDevice = 100000;
 
 class BackendChoice {
  public:
@@ -22,7 +22,7 @@ class BackendChoice {
   explicit BackendChoice(const CommonOptions& common);
 
   /// What `auto` comes to. Falls back to the cpu with a warning.
-  std::shared_ptr<Backend> for_triangles(int count, AutoDevices devices = AutoDevices::no_cpus) const;
+  std::shared_ptr<Backend> for_elements(int count, AutoDevices devices = AutoDevices::no_cpus) const;
 
   bool is_auto() const { return name_ == "auto"; }
 

@@ -38,7 +38,7 @@ std::string device_line(const Device& device, bool taken) {
 
 std::string auto_line(const std::optional<Device>& taken) {
   if (!taken) return "auto takes the cpu backend: there is no GPU or accelerator that can be used\n";
-  return fmt::format("* auto takes it for meshes of {} triangles or more\n", kTrianglesForDevice);
+  return fmt::format("* auto takes it for meshes of {} triangles or more\n", kElementsForDevice);
 }
 
 void run_devices(const std::string& json_path, const CommonOptions& common) {
@@ -53,7 +53,7 @@ void run_devices(const std::string& json_path, const CommonOptions& common) {
     text += device_line(device, is_taken);
   }
   json["auto"] = taken ? Json(taken->index) : Json(nullptr);
-  json["auto_from_triangles"] = kTrianglesForDevice;
+  json["auto_from_triangles"] = kElementsForDevice;
   if (text.empty()) text = "There is no OpenCL device.\n";
   write_json(json_path, json);
   if (json_path != kStdout) write_stdout(text + auto_line(taken));

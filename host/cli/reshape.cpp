@@ -37,7 +37,7 @@ ReshapeOptions solver_options(const ReshapeJob& job, const Mesh& mesh, const Bac
   options.linear_solver = linear_solver(job.linear_solver);
   options.feature_angle = job.feature_angle * std::numbers::pi / 180;
   options.finalise = !job.no_finalise;
-  options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()));
+  options.backend = choice.for_elements(static_cast<int>(mesh.triangles.rows()));
   spdlog::debug("local steps: {} on {}", options.backend->name(), options.backend->device());
   if (!job.curvature.empty()) {
     options.unit_box_curvatures = read_unit_box_curvatures(job.curvature, static_cast<int>(mesh.triangles.rows()));

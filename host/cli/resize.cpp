@@ -82,7 +82,7 @@ void run(const ResizeJob& job, const CommonOptions& common) {
   const Stopwatch total, read;
   const MeshFile file = read_input(job.mesh);
   std::shared_ptr<Backend>& backend = recipe.options.backend;
-  backend = choice.for_triangles(static_cast<int>(file.mesh.triangles.rows()), AutoDevices::all);
+  backend = choice.for_elements(static_cast<int>(file.mesh.triangles.rows()), AutoDevices::all);
   spdlog::debug("local steps: {} on {}", backend->name(), backend->device());
   seconds.read = read.seconds();
   stop_if_interrupted();

@@ -19,7 +19,7 @@ StylizeOptions solver_options(const StylizeJob& job, const Mesh& mesh, const Bac
   if (job.published) options.scale = AcapScale::paper;
   options.pass_limit = job.iterations.value_or(options.pass_limit);
   if (job.accelerate) options.acceleration_window = kAccelerated;
-  options.backend = choice.for_triangles(static_cast<int>(mesh.triangles.rows()), AutoDevices::all);
+  options.backend = choice.for_elements(static_cast<int>(mesh.triangles.rows()), AutoDevices::all);
   spdlog::debug("local steps: {} on {}", options.backend->name(), options.backend->device());
   return options;
 }

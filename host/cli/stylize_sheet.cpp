@@ -27,7 +27,7 @@ Image style_sheet(const StylizeJob& job, const MeshFile& file, const Gesture& ha
       {rest, std::filesystem::path(job.mesh).stem().string(), handle_marks(handles, rest.positions, false), {}, {}}};
   StylizeOptions options;
   options.pass_limit = job.iterations.value_or(options.pass_limit);
-  options.backend = choice.for_triangles(static_cast<int>(rest.triangles.rows()), AutoDevices::all);
+  options.backend = choice.for_elements(static_cast<int>(rest.triangles.rows()), AutoDevices::all);
   for (const StylizeJob& one : jobs_of_sheet(job)) {
     options.energy = energy_of(one);
     std::vector<std::string> none;  // Of these styles.

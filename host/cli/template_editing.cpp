@@ -82,6 +82,7 @@ Json source_json(const KnownFit& known, const TemplateFit& fit, std::vector<std:
   Json json;
   add_fit_quality(json, known.of, fit, warnings);
   json["iterations"] = fit.report.passes;
+  json["backend"] = fit.report.paths.at("field");
   json["seconds"] = fit.report.seconds.at("solve");
   return json;
 }

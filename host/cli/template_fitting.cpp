@@ -46,7 +46,7 @@ std::vector<CLI::Option*> add_fitting_options(CLI::App& app, FitOptions& options
 std::shared_ptr<Backend> backend_of(const FitOptions& options, const BackendChoice& choice) {
   const double points = options.surface_samples + options.volume_samples;
   const double count = std::min(points * options.iterations, 1.0 * std::numeric_limits<int>::max());
-  return choice.for_triangles(static_cast<int>(count), AutoDevices::all);
+  return choice.for_elements(static_cast<int>(count), AutoDevices::all);
 }
 
 TemplateFit fitted(const Template& of, const MeshFile& file, const FitOptions& options, const ProgressFn& progress) {

@@ -181,7 +181,7 @@ void run(const InterpolateJob& job, const CommonOptions& common) {
   const Stopwatch total, read;
   const MeshFile file = read_input(job.mesh);
   std::shared_ptr<Backend> backend =
-      choice.for_triangles(static_cast<int>(file.mesh.triangles.rows()), AutoDevices::all);
+      choice.for_elements(static_cast<int>(file.mesh.triangles.rows()), AutoDevices::all);
   spdlog::debug("local steps: {} on {}", backend->name(), backend->device());
   seconds.read = read.seconds();
   stop_if_interrupted();

@@ -58,7 +58,7 @@ void run(const MeshJob& job, const CommonOptions& common) {
   settings.check_single();
   const Eigen::VectorXd values = settings.on(of.defaults());
   const BackendChoice choice(common);
-  std::shared_ptr<Backend> backend = choice.for_triangles(points_of_surface(job.resolution), AutoDevices::all);
+  std::shared_ptr<Backend> backend = choice.for_elements(points_of_surface(job.resolution), AutoDevices::all);
   seconds.read = read.seconds();
 
   const Stopwatch solve;

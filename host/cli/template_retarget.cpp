@@ -144,7 +144,7 @@ void run(const RetargetJob& job, const CommonOptions& common) {
   const Stopwatch total, read;
   const MeshFile source = read_input(job.mesh), target = read_input(job.target);
   std::shared_ptr<Backend> backend =
-      choice.for_triangles(static_cast<int>(source.mesh.triangles.rows()), AutoDevices::all);
+      choice.for_elements(static_cast<int>(source.mesh.triangles.rows()), AutoDevices::all);
   spdlog::debug("local steps: {} on {}", backend->name(), backend->device());
   seconds.read = read.seconds();
   stop_if_interrupted();

@@ -314,6 +314,7 @@ TemplateFit fit_template(const Template& of, const PositionsRef& positions, cons
   }
   fit.pose = in_mesh_units(fit.pose, box);
   fit.report.seconds["solve"] = seconds;
+  fit.report.paths["field"] = options.backend ? options.backend->name() : cpu_backend()->name();
   return fit;
 }
 

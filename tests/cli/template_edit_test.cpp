@@ -79,6 +79,7 @@ TEST_F(TemplateEditing, AFitOnTheSpotIsTheSame) {
   const json told = report(spot), by_file = report(edit_ + Arguments{"--template", "box", "--set", set});
   EXPECT_EQ(told["parameters"], by_file["parameters"]);
   EXPECT_EQ(told["fit"]["residual"], json::parse(read_text(fit_))["residual"]);
+  EXPECT_EQ(told["fit"]["backend"], json::parse(read_text(fit_))["backend"]);
   EXPECT_EQ(by_file["fit"], (json{{"file", fit_}}));
 }
 
