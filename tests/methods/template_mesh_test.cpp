@@ -112,6 +112,22 @@ TEST(ShippedLamp, LeansAsAWhole) {
   EXPECT_NEAR((left + right) / 2, 0.3 * shade, 0.01);
 }
 
+TEST(ShippedAirplane, HasARoundNose) {
+  const Template of = shipped_template("airplane");
+  const VectorXd at = of.defaults();
+  const double radius = at[of.parameter("radius")], length = at[of.parameter("length")];
+  const double nose = at[of.parameter("nose")] * length, start = length / 2 - nose;
+  const Mesh mesh = template_mesh(of, at, {128, nullptr});
+  int on_nose = 0;
+  for (const auto& p : mesh.positions.rowwise()) {
+    if (p[0] < start + 0.1) continue;
+    const Eigen::Vector3d scaled((p[0] - start) / nose, p[1] / radius, p[2] / radius);
+    EXPECT_NEAR(scaled.norm(), 1, 0.02);
+    ++on_nose;
+  }
+  EXPECT_GT(on_nose, 100);
+}
+
 TEST(TemplateFit, FindsABallAnywhere) {
   const Template of = ball();
   Mesh mesh = transformed(sphere(20, 3), 1, {500, -300, 7});
