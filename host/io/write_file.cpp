@@ -159,22 +159,30 @@ void write_beside(const fs::path& path, const std::string& content, const struct
   temporary.rename();
 }
 
+void write_to(const fs::path& path, const std::string& content) {
+  struct stat present;
+  if (::stat(path.c_str(), &present) != 0) {
+    if (errno != ENOENT) refuse_errno(path, errno);
+    return write_beside(path, content, nullptr);
+  }
+  if (S_ISDIR(present.st_mode)) refuse(path, "it is a folder; name a file in it");
+  if (!S_ISREG(present.st_mode)) return write_directly(path, content);
+  if (::access(path.c_str(), W_OK) != 0) refuse(path, "it is read-only; change its permissions or the name");
+  write_beside(path, content, &present);
+}
+
 }  // namespace
 
 void write_file(const fs::path& path, const std::string& content) {
+  fs::path target = path;
   try {
-    const fs::path target = destination(path);
-    struct stat present;
-    if (::stat(target.c_str(), &present) != 0) {
-      if (errno != ENOENT) refuse_errno(path, errno);
-      return write_beside(target, content, nullptr);
-    }
-    if (S_ISDIR(present.st_mode)) refuse(path, "it is a folder; name a file in it");
-    if (!S_ISREG(present.st_mode)) return write_directly(target, content);
-    if (::access(target.c_str(), W_OK) != 0) refuse(path, "it is read-only; change its permissions or the name");
-    write_beside(target, content, &present);
+    target = destination(path);
+    write_to(target, content);
   } catch (const fs::filesystem_error& error) {
     refuse(path, error.code().message() + "; check the folder and its permissions");
+  } catch (const UnwritableFile& error) {
+    if (target == path) throw;
+    throw UnwritableFile(path.string() + ", a link: " + error.what());
   }
 }
 

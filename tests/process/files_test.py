@@ -55,6 +55,8 @@ class Files(unittest.TestCase):
         self.assert_refused(report, 4, "/dev/full", "No space left")
         with open("/dev/full", "wb") as full:
             self.assert_refused(self.mesh_to("-", stdout=full), 4, "stdout")
+        (self.out / "mesh.obj").symlink_to("/dev/full")
+        self.assert_refused(self.mesh_to("out/mesh.obj"), 4, "out/mesh.obj, a link: /dev/full", "No space left")
 
     def test_a_limit_of_size(self):
         for name in ("stylize", "resize", "template mesh"):

@@ -15,7 +15,7 @@ if ALL:
 from commands import COMMANDS, Ground, arguments_of  # pylint: disable=wrong-import-position
 
 MIB = 1 << 20
-# OpenBLAS, as it is loaded, waits for ever where it gets less.
+# With less the program refuses to begin, or does so soon.
 LEAST = 512 * MIB
 LIMITS = {"address space": (resource.RLIMIT_AS, 4096 * MIB), "data": (resource.RLIMIT_DATA, 1024 * MIB)}
 
@@ -93,6 +93,14 @@ class Memory(unittest.TestCase):
                     self.ground.fill({"a.ply": b"old", "a.json": b"old"})
                     code = self.check(command, [*command.split(" "), "--quiet"], kind, most if ALL else LEAST)
                     self.assertTrue(code == 0 or set(self.ground.content().values()) == {b"old"})
+
+    def test_too_little_for_its_libraries(self):
+        for limited, (kind, _) in LIMITS.items():
+            codes = set()
+            for most in (192, 256, 320, 384, 448):
+                with self.subTest(limited=limited, mib=most):
+                    codes.add(self.check("info", ["info", "mesh.obj", "--quiet"], kind, most * MIB))
+            self.assertIn(4, codes)
 
     def test_few_threads(self):
         """Where no more than one can be started, one does it."""
