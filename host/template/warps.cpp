@@ -60,6 +60,7 @@ Shape mirror(const Shape& of, int axis) {
 /// As a union: folding space would leap where copies are not symmetric.
 Shape repeat(const Shape& of, int axis, int count, Scalar spacing) {
   std::vector<Shape> copies;
+  copies.reserve(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
     copies.emplace_back([=](Point p) {
       p[at(axis)] = p[at(axis)] - spacing * (i - 0.5 * (count - 1));
