@@ -1,6 +1,6 @@
 """Where memory ends, the program ends with one line that says so, or with its result.
 
-With the argument --all: more steps, and a mesh that needs more than 4 GiB."""
+The second argument is the library of many_cores.cpp. With --all: more steps, and a mesh that needs more than 4 GiB."""
 
 import math
 import resource
@@ -11,6 +11,8 @@ import unittest
 ALL = "--all" in sys.argv
 if ALL:
     sys.argv.remove("--all")
+
+MANY_CORES = sys.argv.pop(2)
 
 from commands import COMMANDS, Ground, arguments_of  # pylint: disable=wrong-import-position
 
@@ -101,6 +103,17 @@ class Memory(unittest.TestCase):
                 with self.subTest(limited=limited, mib=most):
                     codes.add(self.check("info", ["info", "mesh.obj", "--quiet"], kind, most * MIB))
             self.assertIn(4, codes)
+
+    def test_many_cores(self):
+        """For each OpenBLAS would begin a thread as it is loaded, and end the program where these do not fit."""
+        for limited, (kind, most) in LIMITS.items():
+            with self.subTest(limited=limited):
+                new = self.ground.new("reshape")
+                self.ground.fill({})
+                limit = lambda: resource.setrlimit(kind, (most, most))
+                answer = self.ground.run(arguments_of("reshape"), {"LD_PRELOAD": MANY_CORES}, preexec_fn=limit)
+                self.assertEqual(answer.returncode, 0, answer.stderr)
+                self.assertEqual(self.ground.content().keys(), new.keys())
 
     def test_few_threads(self):
         """Where no more than one can be started, one does it."""
