@@ -199,7 +199,7 @@ TEST(TemplateEdit, RetargetsToANoisyScanOfOneSide) {
 
 /// ARAP maps in place of the local_map step's, on the same tracking, leave far more behind.
 TEST(TemplateEdit, StretchesWhereRotationsDoNot) {
-  const Fitted couch = shipped("couch", 40);
+  const Fitted couch = shipped("couch", 24);
   const VectorXd target = with(couch, "width", 2 * couch.parameters[couch.of.parameter("width")]);
   const auto residual_by = [&](EditMaps kind) {
     const auto plan = plan_of(couch.of, couch.parameters, {}, couch.mesh.positions, couch.mesh.triangles, {});

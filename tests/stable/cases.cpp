@@ -103,10 +103,11 @@ Case edit_case() {
              TemplateEditOptions options;
              options.backend = backend;
              options.tolerance = still(backend);
+             options.passes = 60;  // It goes on sliding slowly.
              const Mesh& mesh = written.mesh();
              std::map<std::string, double> target = kBrick;
-             target["width"] = 1;
-             target["taper"] = 0.8;
+             target["width"] = 0.85;
+             target["taper"] = 0.95;
              TemplateEdit edit(of, with(of, kBrick), pose_of(written), mesh.positions, mesh.triangles, options);
              return written.back(edit.solve(with(of, target)).positions);
            }};
