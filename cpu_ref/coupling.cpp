@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 
 #include "cpu_steps.h"
+#include "matrix_of_row.h"
 
 namespace swage {
 namespace {
@@ -9,10 +10,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using RowMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-Matrix3d matrix(const Transforms& transforms, Eigen::Index triangle) {
-  return Eigen::Map<const RowMatrix>(transforms.row(triangle).data());
-}
 
 class CpuCoupling final : public CouplingStep {
  public:

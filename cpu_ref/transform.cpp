@@ -8,6 +8,7 @@
 
 #include "cpu_steps.h"
 #include "inverse.h"
+#include "matrix_of_row.h"
 
 namespace swage {
 namespace {
@@ -15,11 +16,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Row9 = Eigen::Matrix<double, 1, 9>;
-
-/// A row of Transforms as the matrix it is.
-Matrix3d matrix(const Transforms& transforms, Eigen::Index triangle) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(transforms.row(triangle).data());
-}
 
 Row9 row(const Matrix3d& matrix) {
   Row9 entries;

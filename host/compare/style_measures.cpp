@@ -21,13 +21,13 @@ using Eigen::Index;
 using Eigen::RowVector3d;
 
 constexpr double kFlat = 1e-3;  // Radians.
-const double kNone = std::numeric_limits<double>::quiet_NaN();
+const double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::VectorXd angles_between(const Positions& normals, const Positions& targets) {
   Eigen::VectorXd angles(normals.rows());
   for (Index i = 0; i < angles.size(); ++i) {
     const RowVector3d n = normals.row(i).stableNormalized(), t = targets.row(i).stableNormalized();
-    angles[i] = n.isZero(0) || t.isZero(0) ? kNone : std::atan2(n.cross(t).norm(), n.dot(t));
+    angles[i] = n.isZero(0) || t.isZero(0) ? kUnknown : std::atan2(n.cross(t).norm(), n.dot(t));
   }
   return angles;
 }
@@ -49,7 +49,7 @@ double mean_known(const std::array<double, 3>& values) {
     sum += value;
     ++known;
   }
-  return known == 0 ? kNone : sum / known;
+  return known == 0 ? kUnknown : sum / known;
 }
 
 void measure_angles(const Positions& positions, const Triangles& triangles, const GivenNormals& targets,

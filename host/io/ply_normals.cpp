@@ -8,12 +8,12 @@
 namespace swage {
 namespace {
 
-constexpr size_t kOther = 3;
+constexpr size_t kNoNormal = 3;
 
 /// For each property 0, 1, 2 for nx, ny, nz; empty where one is missing.
 std::vector<size_t> normal_roles(const PlyElement& element) {
   static constexpr std::array<std::string_view, 3> kNames{"nx", "ny", "nz"};
-  std::vector<size_t> roles(element.properties.size(), kOther);
+  std::vector<size_t> roles(element.properties.size(), kNoNormal);
   for (size_t k = 0; k < 3; ++k) {
     const auto found = find_number(element, kNames[k]);
     if (!found) return {};
@@ -34,7 +34,7 @@ Positions normals_of(PlyBody& body, const PlyElement& element) {
   const auto read = [&](size_t p) {
     const PlyProperty& property = element.properties[p];
     Slot slot;
-    if (roles[p] != kOther) {
+    if (roles[p] != kNoNormal) {
       normal[roles[p]] = body.number(property.type, slot);
     } else if (property.is_list) {
       const long long count = body.list_size(property);

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "adjacency.h"
+#include "angle_rounding.h"
 #include "messages.h"
 #include "swage/error.h"
 
@@ -16,8 +17,6 @@ namespace {
 // In box diagonals: rounding of coordinates, as in files of single precision, may have made a plane or direction of
 // less.
 constexpr double kFlat = 1e-6;
-// A dihedral angle that equals the feature angle up to rounding (radians) is not below it.
-constexpr double kAngleRounding = 1e-9;
 // Flat triangles side by side that are looked across.
 constexpr int kMostHops = 100;
 
@@ -32,9 +31,9 @@ Triangles proper(const TrianglesRef& triangles) {
 }
 
 /// What lies beside the edges of a mesh.
-class Surface {
+class BesideEdges {
  public:
-  Surface(const PositionsRef& positions, const Triangles& triangles)
+  BesideEdges(const PositionsRef& positions, const Triangles& triangles)
       : positions_(positions), triangles_(triangles), edges_(edges_of(triangles)) {
     least_ = kFlat * box_diagonal(positions);
     for (Eigen::Index e = 0; e < edges_.vertices.rows(); ++e) {
@@ -131,18 +130,18 @@ FeatureEdges feature_edges(const PositionsRef& positions, const TrianglesRef& tr
                        " is not an angle between 0 and pi radians");
   }
   const Triangles kept = proper(triangles);
-  const Surface surface(positions, kept);
-  const Eigen::Index count = surface.edges().vertices.rows();
+  const BesideEdges beside(positions, kept);
+  const Eigen::Index count = beside.edges().vertices.rows();
   std::vector<char> is_feature(static_cast<size_t>(count));
 #pragma omp parallel for schedule(static)
   for (Eigen::Index e = 0; e < count; ++e) {
-    is_feature[static_cast<size_t>(e)] = surface.is_feature(static_cast<int>(e), feature_angle);
+    is_feature[static_cast<size_t>(e)] = beside.is_feature(static_cast<int>(e), feature_angle);
   }
   std::vector<Eigen::Index> features;
   for (Eigen::Index e = 0; e < count; ++e) {
     if (is_feature[static_cast<size_t>(e)]) features.push_back(e);
   }
-  return surface.edges().vertices(features, Eigen::all);
+  return beside.edges().vertices(features, Eigen::all);
 }
 
 }  // namespace swage

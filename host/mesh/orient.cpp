@@ -9,10 +9,10 @@
 namespace swage {
 namespace {
 
-constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
 // Of a determinant of rounded differences, relative to the sum of its products' magnitudes (Shewchuk, section 4).
-constexpr double kError2 = (3 + 16 * kRounding) * kRounding;
-constexpr double kError3 = (7 + 56 * kRounding) * kRounding;
+constexpr double kError2 = (3 + 16 * kUnitRoundoff) * kUnitRoundoff;
+constexpr double kError3 = (7 + 56 * kUnitRoundoff) * kUnitRoundoff;
 
 int sign(double x) { return (x > 0) - (x < 0); }
 

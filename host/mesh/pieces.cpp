@@ -5,15 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "angle_rounding.h"
 #include "measures.h"
 
 namespace swage {
 namespace {
 
 using Eigen::Index;
-
-// A dihedral angle that equals the crease angle up to rounding (radians) is not below it.
-constexpr double kAngleRounding = 1e-9;
 
 /// Normals of any length; zero where a triangle has no area.
 Positions certain_normals(const Positions& positions, const Triangles& triangles) {

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "adjacency.h"
+#include "angle_rounding.h"
 #include "curve_sides.h"
 #include "measures.h"
 #include "messages.h"
@@ -20,8 +21,6 @@ namespace {
 
 // Where more edges than this meet is a hub, at which each edge has others nearly opposite.
 constexpr int kMostAtJunction = 100;
-// A turn that equals the largest allowed up to rounding (radians) is not above it.
-constexpr double kAngleRounding = 1e-9;
 
 void check_options(const StraightOptions& options) {
   const auto refuse_unless = [](double value, double most, const char* name, const char* range) {

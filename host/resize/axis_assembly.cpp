@@ -11,9 +11,9 @@ namespace {
 using Eigen::Index;
 using Vector = Values<double>;
 
-constexpr int kIterationLimit = 50;  // Of a round.
-constexpr int kRoundLimit = 60;
-constexpr double kRounding = 1e-14;
+constexpr int kAxisIterationLimit = 50;  // Of a round.
+constexpr int kAxisRoundLimit = 60;
+constexpr double kAxisRounding = 1e-14;
 
 /// Adds each cell's value to the four edges along `axis` that bound it, told by their first vertices.
 void add_to_edges(const TurnedGrid& grid, int axis, const Vector& cells, Vector& edges) {
@@ -117,7 +117,7 @@ Correction AxisAssembly::improve(Approach& approach, const Poll& poll, AxisWork&
   ties.keep(work.kept);
   work.correction.residual = work.kept.cast<float>();
   const Correction correction = correct(
-      times_matrix, precondition, [&](double square) { return approach.enough(square); }, kIterationLimit,
+      times_matrix, precondition, [&](double square) { return approach.enough(square); }, kAxisIterationLimit,
       work.correction);
   work.change += work.correction.change.cast<double>();
   matrix_.subtract(work.side, work.change, work.rest);
@@ -185,7 +185,7 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
   }
   levels_.start(work.levels, !again);
   // What the error's square would be if all vertices were off by rounding.
-  const double off = kRounding * factor * grid_.cells[2];
+  const double off = kAxisRounding * factor * grid_.cells[2];
   Approach approach(tolerance, off * off * (matrix_.across.sum() + 2 * matrix_.weights[2].sum()), work.first);
   const double bound = kLeastEdge * std::min(1.0, factor), least = bound - factor;
   BlockPivoting pivoting;
@@ -199,7 +199,7 @@ AxisResult AxisAssembly::solve(const Eigen::VectorXd& scales, double factor, dou
     changed = pivoting.exchange(work.measure, 1, work.levels.ties.at_bound);
     if (!changed && (result.converged || !correction.gained())) break;
     result.converged = false;
-    if (changed && result.rounds++ == kRoundLimit) break;
+    if (changed && result.rounds++ == kAxisRoundLimit) break;
     if (pivoting.stalled() && approach.tighten()) pivoting = {};  // It may be what solves leave that goes round.
   }
   work.first = approach.first();

@@ -7,8 +7,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kTriangles = 1 << 19;  // Asked for at once.
-constexpr Index kCells = 1 << 21;      // The same, but for a triangle alone.
+constexpr Index kCoverTriangles = 1 << 19;  // Asked for at once.
+constexpr Index kCells = 1 << 21;           // The same, but for a triangle alone.
 
 /// As many of the first counts as list no more cells than are asked for at once.
 Index few_enough(const Eigen::Ref<const Eigen::VectorXi>& counts) {
@@ -27,9 +27,9 @@ void each_coverage(const GridShape& shape, const std::shared_ptr<const Mesh>& me
   const auto step = backend.carry({mesh, {}});
   const Index count = mesh->triangles.rows();
   Eigen::VectorXi counts, cells;
-  for (Index first = 0; first < count; first += kTriangles) {
+  for (Index first = 0; first < count; first += kCoverTriangles) {
     ask(poll);
-    step->count_cells(shape, {first, std::min(first + kTriangles, count)}, counts);
+    step->count_cells(shape, {first, std::min(first + kCoverTriangles, count)}, counts);
     for (Index begin = 0; begin < counts.size();) {
       ask(poll);
       const Eigen::VectorXi some = counts.segment(begin, few_enough(counts.tail(counts.size() - begin)));

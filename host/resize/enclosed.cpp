@@ -13,7 +13,7 @@ using Eigen::Index;
 constexpr double kWall = 0.1;  // Vulnerability of cells that enclose others.
 
 /// Cells of one place along an axis.
-struct Slice {
+struct CellSlice {
   Index first, across, up;  ///< Its first cell, and strides along its two axes.
   int width, height;
 
@@ -22,7 +22,7 @@ struct Slice {
 
 /// Of each cell of a slice, column after column, whether it is reached from the slice's border without passing a wall.
 template <typename IsWall>
-std::vector<char> reached_from_border(const Slice& slice, const IsWall& is_wall) {
+std::vector<char> reached_from_border(const CellSlice& slice, const IsWall& is_wall) {
   std::vector<char> reached(static_cast<size_t>(slice.width) * static_cast<size_t>(slice.height), 0);
   std::vector<std::array<int, 2>> front;
   const auto reach = [&](int i, int j) {
@@ -58,8 +58,8 @@ void protect_enclosed(const GridShape& shape, CellMap& map) {
     const int u = (w + 1) % 3, v = (w + 2) % 3;
     const auto is_wall = [&](Index c) { return std::min(found(c, u), found(c, v)) >= kWall; };
     for (int k = 0; k < shape.cells[w]; ++k) {
-      const Slice slice = {k * shape.cells.stride(w), shape.cells.stride(u), shape.cells.stride(v), shape.cells[u],
-                           shape.cells[v]};
+      const CellSlice slice = {k * shape.cells.stride(w), shape.cells.stride(u), shape.cells.stride(v), shape.cells[u],
+                               shape.cells[v]};
       const std::vector<char> outside = reached_from_border(slice, is_wall);
       auto at = outside.begin();
       for (int i = 0; i < slice.width; ++i) {

@@ -9,11 +9,11 @@ namespace {
 
 using Eigen::Index;
 
-constexpr size_t kTwice = 1;  // So many levels below the finest are gone through twice on each way down.
-constexpr float kDamping = 0.9F;
+constexpr size_t kLinesTwice = 1;  // So many levels below the finest are gone through twice on each way down.
+constexpr float kLinesDamping = 0.9F;
 constexpr float kTie = 1000;  // How much stronger than all else vertices are tied, in the lines that smooth.
 // Tied vertices hold those that they are merged with, by a spring so many times as strong as their neighbours.
-constexpr float kHeld = 2;
+constexpr float kLinesHeld = 2;
 constexpr Merged kAcross = {true, true, false};
 
 template <typename Scalar>
@@ -54,9 +54,9 @@ void solve_lines(const Extents& extents, const Values<float>& along, const Value
     for (Index i = 1; i <= last; ++i) {
       const Index at = i * layer + begin, before = at - layer;
       if (i == 1) {
-        solved(i) = kDamping * part(sides, at, count) * part(inverse_pivots, at, count);
+        solved(i) = kLinesDamping * part(sides, at, count) * part(inverse_pivots, at, count);
       } else {
-        solved(i) = (kDamping * part(sides, at, count) + part(along, before, count) * solved(i - 1)) *
+        solved(i) = (kLinesDamping * part(sides, at, count) + part(along, before, count) * solved(i - 1)) *
                     part(inverse_pivots, at, count);
       }
     }
@@ -211,7 +211,7 @@ void LineLevels::stiffen(LineWork& work) const {
   work.ties.each_block([&](const Ties::Block& block, const auto& vertex) {
     for (Index i = 0; i + 1 < block.count; ++i) {
       const Index at = vertex(i);
-      work.levels[0].image[at] = kHeld / 2 * (finest.diagonal(at) + finest.diagonal(vertex(i + 1)));
+      work.levels[0].image[at] = kLinesHeld / 2 * (finest.diagonal(at) + finest.diagonal(vertex(i + 1)));
     }
   });
   for (size_t l = 1; l < levels_.size(); ++l) {
@@ -247,7 +247,7 @@ void LineLevels::descend(size_t at, const Values<float>& residual, Values<float>
 void LineLevels::descend_twice(size_t at, LineWork& work) const {
   LineLevelWork& own = work.levels[at];
   descend(at, own.residual, own.error, work);
-  if (at > kTwice || at + 1 == levels_.size()) return;
+  if (at > kLinesTwice || at + 1 == levels_.size()) return;
   join_twice(
       own.matrix, [&](const Values<float>& rest, Values<float>& more) { descend(at, rest, more, work); },
       [](const Values<float>&) {}, own.residual, own.error, own.twice);

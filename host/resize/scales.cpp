@@ -17,11 +17,11 @@ using Eigen::Index;
 using Vector = Values<double>;
 using Side = Eigen::Array<double, Eigen::Dynamic, 1, 0, kSide, 1>;
 
-constexpr int kIterationLimit = 50;  // Of a round.
-constexpr int kRoundLimit = 200;
-constexpr double kRounding = 1e-14;
+constexpr int kScaleIterationLimit = 50;  // Of a round.
+constexpr int kScaleRoundLimit = 200;
+constexpr double kScaleRounding = 1e-14;
 
-constexpr const char* kCaller = "ScaleSolve";
+constexpr const char* kScaleSolve = "ScaleSolve";
 
 /// Scales are solved for as what they differ by from the plain scale: exactly nothing where it is best.
 double least_change(double factor) { return kLeastScale * std::min(1.0, factor) - factor; }
@@ -178,7 +178,7 @@ Correction ScaleSolve::Plan::improve(ScaleWork& work, Approach& approach, const 
   const Rows rows = work.levels.rows();
   rows.center(work.rest, work.correction.residual);
   const Correction correction = correct(
-      times_matrix, precondition, [&](double square) { return approach.enough(square); }, kIterationLimit,
+      times_matrix, precondition, [&](double square) { return approach.enough(square); }, kScaleIterationLimit,
       work.correction);
   rows.add(work.correction.change, work.change);
   work.matrix.subtract(work.side, work.change, work.rest);
@@ -232,7 +232,7 @@ void ScaleSolve::Plan::pull_in(ScaleWork& work, const Eigen::RowVector3d& factor
 }
 
 ScaleSolve::ScaleSolve(const GridShape& shape, const CellMap& map) {
-  check(kCaller, shape, map);
+  check(kScaleSolve, shape, map);
   plan_.reset(new Plan{shape, map, with_weights(shape, map.phi)});
   plan_->works.lend([&] { return std::make_unique<ScaleWork>(plan_->matrix); });
 }
@@ -241,7 +241,7 @@ ScaleSolve::ScaleSolve(ScaleSolve&&) noexcept = default;
 ScaleSolve& ScaleSolve::operator=(ScaleSolve&&) noexcept = default;
 
 Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& options, const Poll& poll) const {
-  check_factors(kCaller, plan_->shape, given);
+  check_factors(kScaleSolve, plan_->shape, given);
   if (!(options.size_weight >= 0 && std::isfinite(options.size_weight))) {
     throw InvalidInput("ScaleSolve: options.size_weight: " + digits(options.size_weight) +
                        " is not finite and at least 0");
@@ -256,7 +256,7 @@ Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& op
   // Vulnerable cells that are to keep their size are to have the scale 1, whatever the factors.
   plan_->fill(*work, factors, options.size_weight > 0 ? 1 : unit_scale(plan_->shape, factors), options.size_weight);
   const double rounding =
-      kRounding * kRounding * factors.squaredNorm() * (work->matrix.own + work->matrix.neighbours).sum();
+      kScaleRounding * kScaleRounding * factors.squaredNorm() * (work->matrix.own + work->matrix.neighbours).sum();
   Approach approach(options.tolerance, rounding);
   BlockPivoting pivoting;
   Scales result;
@@ -269,7 +269,7 @@ Scales ScaleSolve::solve(const Eigen::RowVector3d& given, const ScaleOptions& op
     changed = pivoting.exchange(work->measure, 1, work->at_bound);
     if (!changed && (result.converged || !correction.gained())) break;
     result.converged = false;
-    if (changed && result.rounds++ == kRoundLimit) break;
+    if (changed && result.rounds++ == kScaleRoundLimit) break;
     if (pivoting.stalled() && approach.tighten()) pivoting = {};  // It may be what solves leave that goes round.
   }
   plan_->pull_in(*work, factors);

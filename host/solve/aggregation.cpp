@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr size_t kWorthThreads = 100'000;  // Neighbours.
+constexpr size_t kNeighboursWorthThreads = 100'000;  // Neighbours.
 
 /// How much a pair holds its elements together in the two directions in which it does most: across a sharp edge,
 /// surfaces stretch independently, and must not be merged before others.
@@ -48,7 +48,7 @@ Couplings couplings_of(const ElementGraph& graph, const Poll& poll) {
     entries[static_cast<size_t>(next[static_cast<size_t>(j)]++)] = {i, static_cast<int>(p)};
   }
   ask(poll);
-#pragma omp parallel for schedule(static) if (entries.size() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (entries.size() > kNeighboursWorthThreads)
   for (Index i = 0; i < static_cast<Index>(count); ++i) {
     std::sort(entries.begin() + ends[static_cast<size_t>(i)], entries.begin() + ends[static_cast<size_t>(i) + 1]);
   }

@@ -7,7 +7,7 @@ namespace swage {
 namespace {
 
 constexpr double kAstray = 2;
-constexpr double kDamping = 1e-12;  // Of the columns' squares in all: they become dependent as passes converge.
+constexpr double kRidge = 1e-12;  // Of the columns' squares in all: they become dependent as passes converge.
 
 Eigen::Map<const Eigen::VectorXd> flat(const Positions& positions) { return {positions.data(), positions.size()}; }
 
@@ -54,7 +54,7 @@ Eigen::VectorXd Anderson::combined(const Eigen::VectorXd& step, const Eigen::Vec
   Eigen::MatrixXd products = products_.topLeftCorner(kept_, kept_);
   const double square = products.trace();
   if (!(square > 0)) return end;
-  products.diagonal().array() += kDamping * square;
+  products.diagonal().array() += kRidge * square;
   const Eigen::VectorXd mix = products.ldlt().solve(steps_.leftCols(kept_).transpose() * step);
   return end - ends_.leftCols(kept_) * mix;
 }

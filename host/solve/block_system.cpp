@@ -12,8 +12,8 @@
 namespace swage {
 namespace {
 
-constexpr Eigen::Index kWorthThreads = 20000;  // Groups.
-constexpr double kWorstError = 0.1;            // Of a solve in single precision.
+constexpr Eigen::Index kGroupsWorthThreads = 20000;  // Groups.
+constexpr double kWorstError = 0.1;                  // Of a solve in single precision.
 constexpr double kNear = 1e-5;
 constexpr int kIterationsOfAFactor = 12;  // That take as long: 10 to 15 on vertex steps of 4,000 to 84,000 triangles.
 
@@ -109,7 +109,7 @@ void BlockSystem::add_differences(const Stars& stars,
                                   const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& blocks) {
   constexpr std::array<std::array<int, 3>, 3> kPacked = {{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
   const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
-#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+#pragma omp parallel for schedule(static) if (groups > kGroupsWorthThreads)
   for (Eigen::Index group = 0; group < groups; ++group) {
     const auto p = static_cast<size_t>(pattern_->place[static_cast<size_t>(group)]);
     const std::array<double*, 3> columns = {matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * p],
@@ -226,7 +226,7 @@ void BlockSystem::multiply_rows(const double* x, double* y) const {
     return matrix_.valuePtr() + matrix_.outerIndexPtr()[column] + first;
   };
   const auto groups = static_cast<Eigen::Index>(pattern_->above.size());
-#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+#pragma omp parallel for schedule(static) if (groups > kGroupsWorthThreads)
   for (Eigen::Index p = 0; p < groups; ++p) {
     const std::vector<int>& above = pattern_->above[static_cast<size_t>(p)];
     Rows sum = Rows::Zero();
@@ -260,7 +260,7 @@ void BlockSystem::multiply_rows(const double* x, double* y) const {
 void BlockSystem::into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::MatrixXd& ordered) const {
   ordered.resize(columns.rows(), columns.cols());
   const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
-#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+#pragma omp parallel for schedule(static) if (groups > kGroupsWorthThreads)
   for (Eigen::Index g = 0; g < groups; ++g) {
     ordered.middleRows(Eigen::Index{pattern_->place[static_cast<size_t>(g)]} * width_, width_) =
         columns.middleRows(g * width_, width_);
@@ -270,7 +270,7 @@ void BlockSystem::into_order(const Eigen::Ref<const Eigen::MatrixXd>& columns, E
 Eigen::MatrixXd BlockSystem::as_given(const Eigen::MatrixXd& ordered) const {
   Eigen::MatrixXd result(ordered.rows(), ordered.cols());
   const auto groups = static_cast<Eigen::Index>(pattern_->place.size());
-#pragma omp parallel for schedule(static) if (groups > kWorthThreads)
+#pragma omp parallel for schedule(static) if (groups > kGroupsWorthThreads)
   for (Eigen::Index g = 0; g < groups; ++g) {
     result.middleRows(g * width_, width_) =
         ordered.middleRows(Eigen::Index{pattern_->place[static_cast<size_t>(g)]} * width_, width_);

@@ -9,8 +9,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXf;
 
-constexpr float kDamping = 0.7F;         // Of a Jacobi sweep.
-constexpr Index kWorthThreads = 50'000;  // Unknowns. On a busy machine threads are long in meeting.
+constexpr float kDamping = 0.7F;                 // Of a Jacobi sweep.
+constexpr Index kUnknownsWorthThreads = 50'000;  // Unknowns. On a busy machine threads are long in meeting.
 
 /// y += the symmetric matrices with the lower triangles `packed` times x.
 template <int kWidth>
@@ -98,7 +98,7 @@ std::vector<std::pair<int, int>> Level::merge_into(std::vector<int> coarse,
 }
 
 void Level::fill(const ElementGraph& graph, const Poll& poll) {
-#pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (unknowns() > kUnknownsWorthThreads)
   for (Index t = 0; t < count; ++t) {
     for (Index k = 0; k < graph.own.cols(); ++k) own(t / kLanes, k, t % kLanes) = graph.own(t, k);
   }
@@ -123,7 +123,7 @@ void Level::fill(const ElementGraph& graph, const Poll& poll) {
 void Level::coarsen(const ElementGraph& graph, ElementGraph& coarse) const {
   coarse.rows = rows;
   coarse.own.resize(coarse_count(), graph.own.cols());
-#pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (unknowns() > kUnknownsWorthThreads)
   for (Index c = 0; c < coarse_count(); ++c) {
     coarse.own.row(c).setZero();
     for (int p = part_offsets[static_cast<size_t>(c)]; p < part_offsets[static_cast<size_t>(c) + 1]; ++p) {
@@ -141,7 +141,7 @@ template <int kRows>
 void Level::invert(Index first, Index end) {
   constexpr int kWidth = 3 * kRows;
   using Block = Eigen::Matrix<double, kWidth, kWidth>;
-#pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (unknowns() > kUnknownsWorthThreads)
   for (Index t = first; t < end; ++t) {
     const Index row = t / kLanes, lane = t % kLanes;
     PackedCoupling sum = PackedCoupling::Zero();
@@ -203,7 +203,7 @@ void Level::row_product(const VectorXf& x, Index row, Lanes* product) const {
 
 template <typename Work>
 void Level::each_row(const Work& work) const {
-#pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (unknowns() > kUnknownsWorthThreads)
   for (Index row = 0; row < lane_rows(); ++row) work(row);
 }
 
@@ -260,7 +260,7 @@ template <int kRows>
 void Level::gather(const VectorXf& fine, VectorXf& coarse) const {
   constexpr int kWidth = 3 * kRows;
   coarse.resize(coarse_count() * kWidth);
-#pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (unknowns() > kUnknownsWorthThreads)
   for (Index c = 0; c < coarse_count(); ++c) {
     std::array<float, kWidth> sum = {};
     for (int p = part_offsets[static_cast<size_t>(c)]; p < part_offsets[static_cast<size_t>(c) + 1]; ++p) {
@@ -274,7 +274,7 @@ void Level::gather(const VectorXf& fine, VectorXf& coarse) const {
 template <int kRows>
 void Level::scatter(const VectorXf& coarse, VectorXf& fine) const {
   constexpr int kWidth = 3 * kRows;
-#pragma omp parallel for schedule(static) if (unknowns() > kWorthThreads)
+#pragma omp parallel for schedule(static) if (unknowns() > kUnknownsWorthThreads)
   for (Index t = 0; t < count; ++t) {
     const float* from = coarse.data() + Index{into[static_cast<size_t>(t)]} * kWidth;
     for (int i = 0; i < kWidth; ++i) fine[t * kWidth + i] += from[i];

@@ -8,8 +8,8 @@ namespace swage {
 namespace {
 
 constexpr int kBranches = 8;
-constexpr int kLargest = 6;                     // Part of all values that a subtree of a branch may hold.
-constexpr std::size_t kWorthThreads = 500'000;  // Values. Fewer are read sooner than threads have met.
+constexpr int kLargest = 6;                           // Part of all values that a subtree of a branch may hold.
+constexpr std::size_t kValuesWorthThreads = 500'000;  // Values. Fewer are read sooner than threads have met.
 
 /// The panel in which each one's first row below its columns is a column: its parent in the elimination tree, or -1.
 std::vector<int> parents(const Supernodes& source) {
@@ -207,7 +207,7 @@ void Panels<Scalar, kSides>::solve(Eigen::Ref<Sides> sides) const {
   std::vector<Rows> sums(kBranches, Rows::Zero(x.rows() - trunk_, kSides));
   // A branch's own room, made outside of the loops: what they throw would end the program.
   std::vector<Work> works(kBranches, Work(most_rows_, kSides));
-#pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads / kSides)
+#pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kValuesWorthThreads / kSides)
   for (int b = 0; b < kBranches; ++b) {
     Rows& trunk = sums[static_cast<size_t>(b)];
     for (int p = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)]; p < branch_ends_[static_cast<size_t>(b)]; ++p) {
@@ -218,7 +218,7 @@ void Panels<Scalar, kSides>::solve(Eigen::Ref<Sides> sides) const {
   for (const Rows& sum : sums) x.bottomRows(sum.rows()) += sum;
   for (int p = branch_ends_.back(); p < panel_count; ++p) forward(panels_[static_cast<size_t>(p)], x, nullptr, work);
   for (int p = panel_count - 1; p >= branch_ends_.back(); --p) backward(panels_[static_cast<size_t>(p)], x, work);
-#pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kWorthThreads / kSides)
+#pragma omp parallel for schedule(dynamic, 1) if (values_.size() > kValuesWorthThreads / kSides)
   for (int b = 0; b < kBranches; ++b) {
     const int begin = b == 0 ? 0 : branch_ends_[static_cast<size_t>(b - 1)];
     for (int p = branch_ends_[static_cast<size_t>(b)] - 1; p >= begin; --p) {

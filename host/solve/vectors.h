@@ -40,10 +40,10 @@ std::array<double, kCount> products(const Vector& vector, const std::array<const
 /// y becomes a x + b y.
 template <typename Vector>
 void combine(double a, const Vector& x, double b, Vector& y) {
-  using Scalar = typename Vector::Scalar;
+  using Value = typename Vector::Scalar;
   each_stretch(y.size(), [&](Eigen::Index begin, Eigen::Index count, Eigen::Index) {
     y.segment(begin, count) =
-        static_cast<Scalar>(a) * x.segment(begin, count) + static_cast<Scalar>(b) * y.segment(begin, count);
+        static_cast<Value>(a) * x.segment(begin, count) + static_cast<Value>(b) * y.segment(begin, count);
   });
 }
 

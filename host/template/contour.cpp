@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "axes.h"
 #include "lattice.h"
 #include "messages.h"
 #include "preparation.h"
@@ -21,8 +22,6 @@ using Eigen::RowVector3d;
 
 constexpr int kRefinements = 8;          // Of where an edge is crossed.
 constexpr double kFlatDirection = 0.05;  // Of the normals' spread: directions in which they spread less are not told.
-
-int next(int axis) { return (axis + 1) % 3; }
 
 Place moved(Place place, int axis, int by) {
   place[static_cast<size_t>(axis)] += by;

@@ -28,7 +28,7 @@ constexpr double kReach = 0.003;             // Of D: what is smaller follows it
 constexpr double kWeights[2] = {1e-3, 100};  // Least and most of edges: cotangents have no bounds.
 constexpr double kLeastArea = 0.01;          // Of the mean: of a vertex amid slivers.
 constexpr double kGuidance = 0.1;            // Of the mesh's normals: enough where edges tell of none.
-constexpr double kAbout = 0.3;               // Part of the tracking weights that is factored.
+constexpr double kFactored = 0.3;            // Part of the tracking weights that is factored.
 
 Eigen::VectorXd tracking_weights(const EditPlan& plan, const Mesh& unit_mesh) {
   const Eigen::VectorXd areas = barycentric_areas(unit_mesh.positions, unit_mesh.triangles);
@@ -47,13 +47,13 @@ std::vector<char> are_features(const EditPlan& plan, const Mesh& unit_mesh) {
   return are;
 }
 
-/// Solves the laplacian and kAbout of the tracking, as if that drew along all axes alike.
+/// Solves the laplacian and kFactored of the tracking, as if that drew along all axes alike.
 void factor(EditPlan& plan) {
   const Index count = plan.weights.size();
   HeldPoints& points = plan.about_points;
   points.soft.reserve(static_cast<size_t>(count));
   for (int v = 0; v < count; ++v)
-    points.soft.push_back({{v, v, v}, Eigen::Vector3d::UnitX(), kAbout * plan.weights[v]});
+    points.soft.push_back({{v, v, v}, Eigen::Vector3d::UnitX(), kFactored * plan.weights[v]});
   points.soft_targets = Positions::Zero(count, 3);
   points.fixed_targets.resize(0, 3);
   plan.about = std::make_unique<HeldLaplacian>(plan.system, points);

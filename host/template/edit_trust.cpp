@@ -9,11 +9,11 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kTrust = 0.1;     // Part of the tracking that is left, each time, around triangles that turned over,
-constexpr double kLeast = 1e-3;    // and in the end: what is not held at all drifts away.
-constexpr double kOpposed = -0.5;  // Cosine of a gradient and the last pass's there: the template's other side.
-constexpr double kTold = 0.3;      // Part that is left, each time, of what is told of both sides by turns.
-constexpr int kRounds = 16;        // Of evening maps out.
+constexpr double kTrust = 0.1;  // Part of the tracking that is left, each time, around triangles that turned over,
+constexpr double kLeastTrust = 1e-3;  // and in the end: what is not held at all drifts away.
+constexpr double kOpposed = -0.5;     // Cosine of a gradient and the last pass's there: the template's other side.
+constexpr double kTold = 0.3;         // Part that is left, each time, of what is told of both sides by turns.
+constexpr int kEveningRounds = 16;    // Of evening maps out.
 
 /// The vertices' maps evened out over some rings, each counting as much as its vertex is trusted.
 Transforms evened_maps(const EditPlan& plan) {
@@ -21,7 +21,7 @@ Transforms evened_maps(const EditPlan& plan) {
   const SparseMatrix& laplacian = plan.system.laplacian();
   Sums sums(plan.maps.rows(), 10), before;
   sums << plan.trust.asDiagonal() * plan.maps, plan.trust;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kEveningRounds; ++round) {
     std::swap(sums, before);
     sums.resizeLike(before);
 #pragma omp parallel for schedule(static)
@@ -98,20 +98,20 @@ std::vector<char> around(const EditPlan& plan, const std::vector<int>& triangles
 void distrust(EditPlan& plan, const std::vector<int>& triangles, int rings) {
   const std::vector<char> reached = around(plan, triangles, rings);
   for (Index v = 0; v < plan.trust.size(); ++v) {
-    if (reached[static_cast<size_t>(v)] != 0) plan.trust[v] = std::max(kLeast, kTrust * plan.trust[v]);
+    if (reached[static_cast<size_t>(v)] != 0) plan.trust[v] = std::max(kLeastTrust, kTrust * plan.trust[v]);
   }
 }
 
 void let_go(EditPlan& plan, const std::vector<char>& inside) {
   for (Index v = 0; v < plan.trust.size(); ++v) {
-    if (inside[static_cast<size_t>(v)] != 0) plan.trust[v] = std::min(kLeast, plan.trust[v]);
+    if (inside[static_cast<size_t>(v)] != 0) plan.trust[v] = std::min(kLeastTrust, plan.trust[v]);
   }
 }
 
 void distrust_opposed(EditPlan& plan, const Positions& gradients) {
   for (Index v = 0; v < plan.trust.size(); ++v) {
     if (gradients.row(v).dot(plan.tracking.gradients.row(v)) < kOpposed)
-      plan.trust[v] = std::max(kLeast, kTold * plan.trust[v]);
+      plan.trust[v] = std::max(kLeastTrust, kTold * plan.trust[v]);
   }
 }
 

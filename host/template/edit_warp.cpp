@@ -8,12 +8,12 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-constexpr double kFar = 0.05;      // Of D: a warp is asked for no more at a vertex,
-constexpr double kBehind = 0.002;  // Of D: who stays behind the template by that much is asked half,
-constexpr double kNone = 1e-7;     // for smaller gaps there is none,
-constexpr double kLeft = 0.5;      // and where it leaves more of their squares it is none of the mesh.
-constexpr int kCorrections = 2;    // It is of first order.
-constexpr double kWarped = 0.07;   // Part of maps within the surface: there edges alone tell of none.
+constexpr double kFar = 0.05;        // Of D: a warp is asked for no more at a vertex,
+constexpr double kBehind = 0.002;    // Of D: who stays behind the template by that much is asked half,
+constexpr double kNone = 1e-7;       // for smaller gaps there is none,
+constexpr double kWarpLeaves = 0.5;  // and where it leaves more of their squares it is none of the mesh.
+constexpr int kCorrections = 2;      // It is of first order.
+constexpr double kWarped = 0.07;     // Part of maps within the surface: there edges alone tell of none.
 
 /// Weights of tracking, less where the mesh stayed behind before: what the template asks for there cannot be, and asked
 /// in each sub-edit anew it would fold the warp.
@@ -33,7 +33,7 @@ bool step(EditPlan& plan, const VectorXd& behind) {
   const Positions control = plan.free_form.fit(tracking.directions, gaps, weights, idle_displacements(plan));
   const Positions moved = plan.free_form.displacements(control);
   const VectorXd left = gaps - moved.cwiseProduct(tracking.directions).rowwise().sum();
-  if (!(weights.dot(left.cwiseAbs2()) < kLeft * squares)) return false;
+  if (!(weights.dot(left.cwiseAbs2()) < kWarpLeaves * squares)) return false;
   plan.positions += moved;
   Warp& warp = plan.warp;
   warp.control = warp.control.rows() > 0 ? Positions(warp.control + control) : control;

@@ -17,13 +17,13 @@ using Motion = Eigen::Vector<double, 7>;
 using Motions = Eigen::Matrix<double, 7, 7>;
 using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-constexpr double kLeft = 0.25;   // A motion that leaves more of the squared gaps is none of the whole.
-constexpr double kStill = 1e-7;  // Of D: smaller gaps are none.
-constexpr double kUntold = 0.3;  // Of the mean gap: what a motion of the whole may leave along the way.
-constexpr int kSteps = 16;       // Of a motion of the whole,
-constexpr int kMoves = 3;        // and how often each is corrected,
-constexpr int kLastMoves = 12;   // and the last.
-constexpr double kIdle = 1e-4;   // Part of a motion's squares that is along tracking's directions: below, it is idle.
+constexpr double kMotionLeaves = 0.25;  // A motion that leaves more of the squared gaps is none of the whole.
+constexpr double kNoGap = 1e-7;         // Of D: smaller gaps are none.
+constexpr double kUntold = 0.3;         // Of the mean gap: what a motion of the whole may leave along the way.
+constexpr int kSteps = 16;              // Of a motion of the whole,
+constexpr int kMoves = 3;               // and how often each is corrected,
+constexpr int kLastMoves = 12;          // and the last.
+constexpr double kIdle = 1e-4;  // Part of a motion's squares that is along tracking's directions: below, it is idle.
 
 /// By which the tracking rows are met best, about the middle; what it leaves of the squared gaps; and motions, each of
 /// length 1 in the rows' weights, that no row is told of.
@@ -116,9 +116,9 @@ double mean_gap(const EditPlan& plan) {
 
 bool move_as_whole(EditPlan& plan) {
   const Whole whole = whole_motion(plan);
-  const double still = kStill * plan.diagonal;
+  const double still = kNoGap * plan.diagonal;
   if (!(whole.square > plan.tracking.weights.sum() * still * still)) return false;
-  if (!(whole.left < kLeft * whole.square)) return false;
+  if (!(whole.left < kMotionLeaves * whole.square)) return false;
   move(plan, whole);
   return true;
 }
@@ -167,9 +167,9 @@ bool follow_as_whole(EditPlan& plan, const Eigen::VectorXd& target, const Poll& 
         plan.growth *= std::exp(whole.motion[6]);
         track(plan, parameters);
       }
-      if (!(mean_gap(plan) <= std::max(kUntold * before, kStill * plan.diagonal))) return false;
+      if (!(mean_gap(plan) <= std::max(kUntold * before, kNoGap * plan.diagonal))) return false;
     }
-    return mean_gap(plan) <= kStill * plan.diagonal;
+    return mean_gap(plan) <= kNoGap * plan.diagonal;
   };
   if (explained()) {
     plan.parameters = target;

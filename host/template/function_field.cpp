@@ -7,7 +7,7 @@
 namespace swage {
 namespace {
 
-constexpr double kReach = 1e-5;
+constexpr double kProbe = 1e-5;
 
 }  // namespace
 
@@ -30,18 +30,18 @@ void FunctionField::evaluate(const Positions& points, const Eigen::VectorXd& par
   if (derivatives == FieldDerivatives::none) return;
   field.gradients.resize(points.rows(), 3);
   for (int u = 0; u < 3; ++u) {
-    const Eigen::RowVector3d reach = kReach * Eigen::RowVector3d::Unit(u);
+    const Eigen::RowVector3d reach = kProbe * Eigen::RowVector3d::Unit(u);
     field.gradients.col(u) =
         (values_at(points.rowwise() + reach, parameters) - values_at(points.rowwise() - reach, parameters)) /
-        (2 * kReach);
+        (2 * kProbe);
   }
   if (derivatives == FieldDerivatives::in_space) return;
   field.by_parameters.resize(points.rows(), parameters.size());
   for (Eigen::Index i = 0; i < parameters.size(); ++i) {
     const TemplateParameter& p = parameters_[static_cast<std::size_t>(i)];
     Eigen::VectorXd low = parameters, high = parameters;
-    low[i] -= kReach * (p.most - p.least);
-    high[i] += kReach * (p.most - p.least);
+    low[i] -= kProbe * (p.most - p.least);
+    high[i] += kProbe * (p.most - p.least);
     field.by_parameters.col(i) = (values_at(points, high) - values_at(points, low)) / (high[i] - low[i]);
   }
 }

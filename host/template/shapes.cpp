@@ -2,11 +2,10 @@
 
 #include <cstddef>
 
+#include "axes.h"
+
 namespace swage {
 namespace {
-
-int next(int axis) { return (axis + 1) % 3; }
-std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
 
 struct AboutAxis {
   Scalar radial, along;

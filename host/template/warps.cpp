@@ -3,15 +3,13 @@
 #include <cstddef>
 #include <numbers>
 
+#include "axes.h"
 #include "shapes.h"
 
 namespace swage {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-int next(int axis) { return (axis + 1) % 3; }
-std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
 
 /// Turns the plane of two axes by minus the angle, from the first towards the second.
 Point turned_back(Point p, int first, int second, Scalar cosine, Scalar sine) {

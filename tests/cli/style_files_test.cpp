@@ -21,16 +21,15 @@ namespace swage::test {
 namespace {
 
 using nlohmann::json;
+using std::numbers::pi;
 using testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 std::uint32_t straight(int, int) { return 0x8080FFFF; }
 
 /// A globe painted with its own normals; of `height` rows.
 std::string globe_png(int height) {
   return rgba_png(2 * height, height, [&](int x, int y) {
-    const double down = kPi * (y + 0.5) / height, around = kPi * (x + 0.5) / height - kPi;
+    const double down = pi * (y + 0.5) / height, around = pi * (x + 0.5) / height - pi;
     return colour_of(std::sin(down) * std::sin(around), std::cos(down), std::sin(down) * std::cos(around));
   });
 }

@@ -172,7 +172,8 @@ TEST_F(TemplateEditing, OtherFormatsAndMeshesOfTheSamePlace) {
     EXPECT_NEAR(mesh.positions.col(0).maxCoeff() - mesh.positions.col(0).minCoeff(), 1.5, 0.02) << name;
   }
   const Outcome outcome =
-      run(Arguments{"template", "edit", file("fine.ply"), "--fit", fit_, "--set", "width*=1.5", "-o", file("out.ply")} + kFew);
+      run(Arguments{"template", "edit", file("fine.ply"), "--fit", fit_, "--set", "width*=1.5", "-o", file("out.ply")} +
+          kFew);
   EXPECT_THAT(outcome.err, HasSubstr("fit.json is of a mesh of 56 vertices and 108 triangles"));
 }
 

@@ -21,10 +21,10 @@ TEST(FaceValues, StandBehindEachTrianglesCorners) {
   const std::string bytes = read_text(folder / "faces.ply");
   EXPECT_NE(bytes.find("int vertex_indices\nproperty double turn\nproperty double size\nend_header\n"),
             std::string::npos);
-  constexpr size_t kFace = 1 + 3 * 4 + 2 * 8;  // Bytes.
+  constexpr size_t kFaceBytes = 1 + 3 * 4 + 2 * 8;  // Bytes.
   const auto number = [&](size_t face, size_t k) {
     double value = 0;
-    std::memcpy(&value, bytes.data() + bytes.size() - (2 - face) * kFace + 13 + 8 * k, sizeof value);
+    std::memcpy(&value, bytes.data() + bytes.size() - (2 - face) * kFaceBytes + 13 + 8 * k, sizeof value);
     return value;
   };
   EXPECT_EQ(number(0, 0), 0.5);

@@ -111,14 +111,14 @@ TEST(Gestures, RefuseToWriteWhatCannotBeRead) {
 }
 
 TEST(Gestures, BadFilesAreRefusedNamingGestureAndVertex) {
-  struct Bad {
+  struct BadGesture {
     std::string text;
     std::vector<std::string> words;
   };
   const auto one = [](const std::string& displacements) {
     return R"([{"displacements": )" + displacements + R"(, "label": "pull"}])";
   };
-  const std::vector<Bad> files = {
+  const std::vector<BadGesture> files = {
       {"", {"JSON"}},
       {"[\n{]", {"line 2", "JSON"}},
       {"{}", {"list of gestures"}},
@@ -145,7 +145,7 @@ TEST(Gestures, BadFilesAreRefusedNamingGestureAndVertex) {
        {"'b'", "'3' comes twice"}},
       {R"([{"label": "a", "displacements": {}}, {"label": "a", "displacements": {}}])", {"two gestures", "'a'"}}};
   const TempFolder folder;
-  for (const Bad& bad : files) {
+  for (const BadGesture& bad : files) {
     write_text(folder / "a.deform", bad.text);
     const std::string message = message_of<UnreadableFile>([&] { read_gestures(folder / "a.deform", pyramid()); });
     EXPECT_THAT(message, HasSubstr("a.deform")) << bad.text;

@@ -12,7 +12,7 @@ namespace swage::test {
 namespace {
 
 // Two triangles, one in the plane z = 0 and one in x = 0; the second normal is shared by both.
-const std::string kObj =
+const std::string kShaded =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0.0 1.0\nvn 0.6 0 0.8\nvn 1 0 0\n"
     "f 1//1 2//1 3//2\nf 1//3 3//2 4//-1\n";
 
@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3d> normals_of(const std::string& obj) {
 }
 
 TEST(Normals, TurnWithTheMesh) {
-  const MeshFile file = read_bytes("a.obj", kObj);
+  const MeshFile file = read_bytes("a.obj", kShaded);
   // About the mean normal of each set of users the minimal rotation is the whole one.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).matrix();
   const auto normals = normals_of(written(file, turned(file.mesh.positions, turn)));
@@ -43,7 +43,7 @@ TEST(Normals, TurnWithTheMesh) {
 }
 
 TEST(Normals, TurnByTheMinimalRotationOfTheirOwnFaces) {
-  const MeshFile file = read_bytes("a.obj", kObj);
+  const MeshFile file = read_bytes("a.obj", kShaded);
   Positions positions = file.mesh.positions;
   positions.row(1) << 1, 0, 1;  // Tilts the first triangle alone by 45 degrees about y.
   const auto normals = normals_of(written(file, positions));
@@ -55,7 +55,7 @@ TEST(Normals, TurnByTheMinimalRotationOfTheirOwnFaces) {
 }
 
 TEST(Normals, KeepTheirBytesWhereTheSurfaceOnlySlides) {
-  const MeshFile file = read_bytes("a.obj", kObj);
+  const MeshFile file = read_bytes("a.obj", kShaded);
   const Positions positions = (file.mesh.positions * 1.7).rowwise() + Eigen::RowVector3d(0.1, 0.2, 0.3);
   const std::string text = written(file, positions);
   EXPECT_NE(text.find("vn 0 0.0 1.0\nvn 0.6 0 0.8\nvn 1 0 0\n"), std::string::npos) << text;

@@ -32,7 +32,7 @@ std::string ply(const std::vector<std::string>& vertices, const std::string& ver
 
 const std::string kNormal = "property float nx\nproperty float ny\nproperty double nz\n";
 const std::vector<std::string> kCorners{"0 0 0", "1 0 0", "1 1 0", "0 1 0"};
-const std::vector<std::string> kFaces{"4 0 1 2 3", "3 0 1 2"};
+const std::vector<std::string> kFaceRows{"4 0 1 2 3", "3 0 1 2"};
 
 class StyleFiles : public testing::Test {
  protected:
@@ -58,7 +58,7 @@ class StyleFiles : public testing::Test {
 
 TEST_F(StyleFiles, NormalsOfVertices) {
   const GivenNormals normals = read(ply({"0 0 0 1 9 0 0", "1 0 0 1 0 1 0", "1 1 0 1 0 0 1.5", "0 1 0 1 0 0 0"},
-                                        "property uchar red\n" + kNormal, kFaces, ""));
+                                        "property uchar red\n" + kNormal, kFaceRows, ""));
   EXPECT_FALSE(normals.of_triangles);
   EXPECT_EQ(normals.normals, (Positions{{9, 0, 0}, {0, 1, 0}, {0, 0, 1.5}, {0, 0, 0}}));
 }
@@ -78,10 +78,10 @@ TEST_F(StyleFiles, NormalsAreReadAsWritten) {
 }
 
 TEST_F(StyleFiles, NormalsThatDoNotFitAreRefused) {
-  const std::string none = ply(kCorners, "", kFaces, "");
+  const std::string none = ply(kCorners, "", kFaceRows, "");
   expect_refused<UnreadableFile>(none, "neither its vertices nor its faces");
   expect_refused<UnreadableFile>(
-      ply({"0 0 0 1 0 0", "1 0 0 nan 0 0", "1 1 0 0 0 1", "0 1 0 0 0 1"}, kNormal, kFaces, ""),
+      ply({"0 0 0 1 0 0", "1 0 0 nan 0 0", "1 1 0 0 0 1", "0 1 0 0 0 1"}, kNormal, kFaceRows, ""),
       "vertex 1 is not finite");
   expect_refused<InvalidInput>(ply({"0 0 0 1 0 0", "1 0 0 1 0 0", "1 1 0 0 0 1"}, kNormal, {"3 0 1 2"}, ""),
                                "3 vertices, but the mesh has 4");
@@ -126,7 +126,8 @@ TEST_F(StyleFiles, OtherCapturesAreRefusedByName) {
     }
     return {};
   };
-  EXPECT_THAT(refused("square.ply", ply(kCorners, "", kFaces, "")), HasSubstr("square.ply: its vertices have no norm"));
+  EXPECT_THAT(refused("square.ply", ply(kCorners, "", kFaceRows, "")),
+              HasSubstr("square.ply: its vertices have no norm"));
   EXPECT_THAT(refused("blank.ply", painted_sphere(1, [](const auto& p) { return 0 * p; })),
               HasSubstr("blank.ply: normal_capture: 100 % of the sphere"));
   EXPECT_THAT(refused("ball.obj", kSquare), HasSubstr(".png, or a sphere"));

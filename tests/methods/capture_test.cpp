@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using testing::HasSubstr;
 using enum CaptureLayout;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Where normal(column, row) gives each pixel's, their middles at halves.
 template <typename Normal>
@@ -36,7 +36,7 @@ NormalPicture painted(int width, int height, const Normal& normal) {
 
 /// Each point of the sphere painted with itself: rows are angles from y, columns turn from z by x.
 Vector3d on_globe(double x, double y, double height) {
-  const double down = kPi * y / height, around = 2 * kPi * (x / (2 * height) - 0.5);
+  const double down = pi * y / height, around = 2 * pi * (x / (2 * height) - 0.5);
   return {std::sin(down) * std::sin(around), std::cos(down), std::sin(down) * std::cos(around)};
 }
 
@@ -67,7 +67,7 @@ double farthest(const SphereMap& map, const Expected& expected) {
     const Vector3d due = expected(Vector3d(directions.row(i).transpose()));
     most = std::max(most, std::acos(std::clamp(due.dot(normals.row(i).transpose()), -1.0, 1.0)));
   }
-  return most * 180 / kPi;
+  return most * 180 / pi;
 }
 
 Vector3d itself(const Vector3d& direction) { return direction; }

@@ -13,7 +13,7 @@
 namespace swage::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Positions mapped(const Positions& positions, const Eigen::Matrix3d& map) { return positions * map.transpose(); }
 
@@ -52,7 +52,7 @@ TEST(Compare, ACylinderScaledAlongItsAxisSlidesStill) {
   const Comparison longer = compare(mesh.positions, scaled(mesh.positions, {2, 3, 2}), mesh.triangles);
   EXPECT_NEAR(longer.turn.max, 0, 1e-7);
   // Chords of 32 segments; the caps keep their shape.
-  const double side = 32 * std::sin(kPi / 32), caps = 2 * 32 * std::sin(2 * kPi / 32) / 8, share = side / (side + caps);
+  const double side = 32 * std::sin(pi / 32), caps = 2 * 32 * std::sin(2 * pi / 32) / 8, share = side / (side + caps);
   expect_spread(longer.uneven, share * std::log(1.5), std::log(1.5), std::log(1.5));
   expect_spread(longer.shear, share * 2 * std::asin(0.2), 2 * std::asin(0.2), 2 * std::asin(0.2));
   EXPECT_NEAR(longer.slippage_loss.max, 0, 1e-9);
@@ -70,7 +70,7 @@ double out_of_round(double a, double b) {
   const double radius = std::sqrt((a * a + b * b) / 2);
   double sum = 0;
   for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * kPi * i / kPoints;
+    const double angle = 2 * pi * i / kPoints;
     sum += std::pow(std::hypot(a * std::cos(angle), b * std::sin(angle)) / radius - 1, 2);
   }
   return std::sqrt(sum / kPoints);
@@ -186,7 +186,7 @@ Mesh irregular(Mesh mesh, int segments, int rings) {
   for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
     const Eigen::RowVector3d at = mesh.positions.row(v);
     if (at[1] < low + 1e-9 || at[1] > high - 1e-9) continue;
-    const double angle = std::atan2(at[2], at[0]) + slide(random) * 2 * kPi / segments;
+    const double angle = std::atan2(at[2], at[0]) + slide(random) * 2 * pi / segments;
     mesh.positions.row(v) << radius * std::cos(angle), at[1] + slide(random) * (high - low) / rings,
         radius * std::sin(angle);
   }
@@ -223,7 +223,7 @@ TEST(Compare, CountsWhatTurnsOverCollapsesAndCrosses) {
   edit = scaled(mesh.positions, {-1, 1, 1});
   const Comparison mirrored = compare(mesh.positions, edit, mesh.triangles);
   EXPECT_EQ(mirrored.flipped, mesh.triangles.rows());
-  expect_spread(mirrored.turn, kPi, kPi, kPi);
+  expect_spread(mirrored.turn, pi, pi, pi);
   expect_spread(mirrored.uneven, 0, 0, 0);
 
   const Mesh two = joined(mesh, transformed(mesh, 1, {0, 0, 0.5}));

@@ -20,7 +20,7 @@ Positions scaled(const Assembled& model, const ResizeTarget& target) {
   return model.mesh.positions * target.factors.asDiagonal();
 }
 
-std::vector<Rim> joined(std::vector<Rim> rims, const std::vector<Rim>& others) {
+std::vector<Rim> joined_rims(std::vector<Rim> rims, const std::vector<Rim>& others) {
   rims.insert(rims.end(), others.begin(), others.end());
   return rims;
 }
@@ -35,7 +35,7 @@ double uneven(const Assembled& model, const Part& part, const Positions& positio
 TEST(ResizeModels, WheelsOfACarStayRound) {
   const Assembled model = car();
   const std::vector<Rim> wheels =
-      joined(joined(rims_of(model, "tyre", 2), rims_of(model, "rim", 2)), rims_of(model, "cap", 2));
+      joined_rims(joined_rims(rims_of(model, "tyre", 2), rims_of(model, "rim", 2)), rims_of(model, "cap", 2));
   ASSERT_EQ(wheels.size(), 12U);
   EXPECT_NEAR(most_oval(model.mesh.positions, wheels), 0, 1e-12);
   EXPECT_NEAR(most_oval(scaled(model, by(2, 1, 1)), wheels), 1, 1e-12);
@@ -46,7 +46,7 @@ TEST(ResizeModels, WheelsOfACarStayRound) {
 TEST(ResizeModels, TheDialOfAClockStaysRound) {
   const Assembled model = clock_of_parts();
   const std::vector<Rim> dial =
-      joined(joined(rims_of(model, "dial", 2), rims_of(model, "bezel", 2)), rims_of(model, "inner ring", 2));
+      joined_rims(joined_rims(rims_of(model, "dial", 2), rims_of(model, "bezel", 2)), rims_of(model, "inner ring", 2));
   ASSERT_EQ(dial.size(), 3U);
   EXPECT_NEAR(most_oval(scaled(model, by(2, 1, 1)), dial), 1, 1e-12);
   EXPECT_LT(most_oval(resized(model, by(2, 1, 1)), dial), 0.05);
@@ -55,7 +55,7 @@ TEST(ResizeModels, TheDialOfAClockStaysRound) {
 
 TEST(ResizeModels, HatchesAndCapsOfATankStayRound) {
   const Assembled model = tank();
-  const std::vector<Rim> hatches = joined(rims_of(model, "hatch", 1), rims_of(model, "eye", 2));
+  const std::vector<Rim> hatches = joined_rims(rims_of(model, "hatch", 1), rims_of(model, "eye", 2));
   const std::vector<Part> caps = model.named("cap");
   ASSERT_EQ(hatches.size(), 8U);
   ASSERT_EQ(caps.size(), 2U);

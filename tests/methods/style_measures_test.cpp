@@ -14,7 +14,7 @@
 namespace swage::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 StyleMeasures measures_of(const Mesh& mesh) {
   return style_measures(mesh.positions, mesh.triangles, {unit_normals(mesh.positions, mesh.triangles), true});
@@ -81,11 +81,11 @@ TEST(StyleMeasures, ABoxUnrollsButAtItsCorners) {
 TEST(StyleMeasures, QualityIsThatOfTheTriangles) {
   const Mesh halves = sheet(3);
   EXPECT_NEAR(measures_of(halves).quality, std::sqrt(3) / 2, 1e-12);
-  EXPECT_NEAR(measures_of(halves).least_angle, kPi / 4, 1e-12);
-  EXPECT_NEAR(measures_of(halves).low_angle, kPi / 4, 1e-12);
+  EXPECT_NEAR(measures_of(halves).least_angle, pi / 4, 1e-12);
+  EXPECT_NEAR(measures_of(halves).low_angle, pi / 4, 1e-12);
   const Mesh equilateral = style_shape(StyleShape::octahedron);
   EXPECT_NEAR(measures_of(equilateral).quality, 1, 1e-12);
-  EXPECT_NEAR(measures_of(equilateral).least_angle, kPi / 3, 1e-12);
+  EXPECT_NEAR(measures_of(equilateral).least_angle, pi / 3, 1e-12);
   Mesh needle = halves;
   needle.positions.col(0) *= 100;
   EXPECT_NEAR(measures_of(needle).least_angle, std::atan2(1, 100), 1e-12);

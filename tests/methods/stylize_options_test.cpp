@@ -20,7 +20,7 @@ namespace {
 using enum StylizeEnergy;
 using enum StylizeWeights;
 
-const StylizeEnergy kEnergies[] = {arap, farap, acap};
+const StylizeEnergy kEveryEnergy[] = {arap, farap, acap};
 
 StylizeResult solved(const Mesh& mesh, const ClosestNormals& style, double lambda, const StylizeOptions& options) {
   return stylize(mesh.positions, mesh.triangles, style, lambda, options);
@@ -42,7 +42,7 @@ Mesh twisted_sphere(double by) {
 
 TEST(StylizeWeights, AreTheSameWhereNoCotangentsSumToLessThanNothing) {
   const Mesh mesh = askew(sphere(1, 2));
-  for (const StylizeEnergy energy : kEnergies) {
+  for (const StylizeEnergy energy : kEveryEnergy) {
     StylizeOptions options;
     options.energy = energy;
     options.pass_limit = 20;
@@ -57,7 +57,7 @@ TEST(StylizeWeights, AreTheSameWhereNoCotangentsSumToLessThanNothing) {
 
 TEST(StylizeWeights, NeverRaiseTheEnergyForConstantTargets) {
   const Mesh mesh = twisted_sphere(5);
-  for (const StylizeEnergy energy : kEnergies) {
+  for (const StylizeEnergy energy : kEveryEnergy) {
     for (const StylizeWeights weights : weights_for(energy)) {
       StylizeOptions options;
       options.energy = energy;
@@ -131,19 +131,19 @@ TEST(StylizeWeights, OfIntrinsicTrianglesAreNotForTheMeshsOwn) {
   EXPECT_THROW(Stylize(mesh.positions, mesh.triangles, options), InvalidInput);
 }
 
-struct Shape {
+struct FineShape {
   std::string name;
   Mesh mesh;
 };
 
-std::vector<Shape> shapes() {
+std::vector<FineShape> fine_shapes() {
   return {{"sphere", askew(sphere(1, 3))},
           {"torus", askew(torus(1, 0.4, 36, 18))},
           {"bumpy", askew(bumpy_sphere(0.05, 3))},
           {"sheet", askew(sheet(10))}};
 }
 
-class StylizeAcceleration : public testing::TestWithParam<Shape> {
+class StylizeAcceleration : public testing::TestWithParam<FineShape> {
  protected:
   static StylizeResult solved(StylizeEnergy energy, bool dynamic, int window, double movement = 1e-7) {
     StylizeOptions options;
@@ -156,7 +156,7 @@ class StylizeAcceleration : public testing::TestWithParam<Shape> {
 };
 
 TEST_P(StylizeAcceleration, ReachesTheSameFixedPointInAThirdOfThePasses) {
-  for (const StylizeEnergy energy : kEnergies) {
+  for (const StylizeEnergy energy : kEveryEnergy) {
     const StylizeResult plain = solved(energy, false, 0), fast = solved(energy, false, 5);
     EXPECT_LT(far_apart(plain.positions, fast.positions), 1e-6) << to_string(energy);
     EXPECT_LE(3 * fast.report.passes, plain.report.passes + 3) << to_string(energy);
@@ -165,7 +165,7 @@ TEST_P(StylizeAcceleration, ReachesTheSameFixedPointInAThirdOfThePasses) {
 
 /// Targets that are looked up again may settle otherwise.
 TEST_P(StylizeAcceleration, ReachesAsLowAnEnergyForDynamicTargets) {
-  for (const StylizeEnergy energy : kEnergies) {
+  for (const StylizeEnergy energy : kEveryEnergy) {
     const StylizeResult plain = solved(energy, true, 0), fast = solved(energy, true, 5);
     EXPECT_LT(fast.report.energy, 1.005 * plain.report.energy + 1e-12) << to_string(energy);
     EXPECT_LT(2 * fast.report.passes, plain.report.passes) << to_string(energy);
@@ -173,13 +173,13 @@ TEST_P(StylizeAcceleration, ReachesAsLowAnEnergyForDynamicTargets) {
 }
 
 TEST_P(StylizeAcceleration, NeverRaisesTheEnergyForConstantTargets) {
-  for (const StylizeEnergy energy : kEnergies) {
+  for (const StylizeEnergy energy : kEveryEnergy) {
     const std::vector<double> energies = solved(energy, false, 5).report.energies;
     for (size_t i = 1; i < energies.size(); ++i) EXPECT_LE(energies[i], energies[i - 1] * (1 + 1e-12));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Any, StylizeAcceleration, testing::ValuesIn(shapes()),
+INSTANTIATE_TEST_SUITE_P(Any, StylizeAcceleration, testing::ValuesIn(fine_shapes()),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Template ball() {
+Template round_template() {
   return parse_template(R"({"version": 1, "name": "ball", "up": "y",
       "parameters": [{"name": "radius", "default": 1, "min": 0.5, "max": 3},
                      {"name": "x", "default": 0, "min": -2, "max": 2}],
@@ -33,7 +33,7 @@ Eigen::RowVector3d extents(const Mesh& mesh) {
 }
 
 TEST(TemplateMesh, IsTheSurface) {
-  const Template of = ball();
+  const Template of = round_template();
   const Mesh mesh = template_mesh(of, of.defaults(), {64, nullptr});
   const Diagnosis diagnosis = diagnose(mesh.positions, mesh.triangles);
   EXPECT_EQ(diagnosis.boundary_edges.count, 0);
@@ -54,7 +54,7 @@ TEST(TemplateMesh, KeepsEdgesSharp) {
 }
 
 TEST(TemplateMesh, IsRefusedOrEmptyInWords) {
-  const Template of = ball();
+  const Template of = round_template();
   EXPECT_THROW(template_mesh(of, VectorXd::Zero(1)), InvalidInput);
   EXPECT_THROW(template_mesh(of, VectorXd::Constant(2, NAN)), InvalidInput);
   EXPECT_THROW(template_mesh(of, of.defaults(), {4, nullptr}), InvalidInput);
@@ -129,7 +129,7 @@ TEST(ShippedAirplane, HasARoundNose) {
 }
 
 TEST(TemplateFit, FindsABallAnywhere) {
-  const Template of = ball();
+  const Template of = round_template();
   Mesh mesh = transformed(sphere(20, 3), 1, {500, -300, 7});
   const TemplateFit fit = fit_template(of, mesh.positions, mesh.triangles);
   EXPECT_LT(fit.residual, 0.003);
@@ -166,7 +166,7 @@ TEST(TemplateFit, TellsOfSurfacesThatAreNotClosed) {
 }
 
 TEST(TemplateFit, RefusesWhatItCannotDo) {
-  const Template of = ball();
+  const Template of = round_template();
   const Mesh mesh = sphere();
   FitOptions options;
   options.surface_samples = 3;

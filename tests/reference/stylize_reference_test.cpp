@@ -15,7 +15,7 @@ namespace {
 
 const std::filesystem::path kFolder = "oracle/stylize";
 
-struct Expected {
+struct PublishedResult {
   const char* name;  // Of its files.
   const char* shape;
   const char* style;  // A file, or "" for developable.
@@ -23,10 +23,10 @@ struct Expected {
   double lambda;
 };
 
-void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.name; }
+void PrintTo(const PublishedResult& expected, std::ostream* out) { *out << expected.name; }
 
 using enum StylizeEnergy;
-const Expected kResults[] = {
+const PublishedResult kResults[] = {
     {"primDBL__spot__cube__lam1", "spot", "cube", arap, 1},
     {"primDBL__spot__cube__lam10", "spot", "cube", arap, 10},
     {"primDBL__fandisk__octahedron__lam1", "fandisk", "octahedron", arap, 1},
@@ -42,7 +42,7 @@ Mesh read(const std::filesystem::path& inside) {
   return file.mesh;
 }
 
-Style style_of(const Expected& expected) {
+Style style_of(const PublishedResult& expected) {
   const std::string name = expected.style;
   if (name.empty()) return Developable{0, 6.15e-5};
   const Mesh style = read("styles/" + name + ".obj");
@@ -51,14 +51,14 @@ Style style_of(const Expected& expected) {
 }
 
 /// Passes that the authors' program made before it stopped, or 350.
-int published_passes(const Expected& expected) {
+int published_passes(const PublishedResult& expected) {
   std::ifstream file(test::shared((kFolder / expected.name).string() + ".csv"));
   std::string line, last;
   while (std::getline(file, line)) last = line;
   return std::stoi(last.substr(last.find('=') + 1));
 }
 
-class StylizeReference : public testing::TestWithParam<Expected> {
+class StylizeReference : public testing::TestWithParam<PublishedResult> {
  protected:
   void SetUp() override {
     if (!test::has_shared()) GTEST_SKIP() << "the reference results are not here";
@@ -143,7 +143,7 @@ TEST_P(StylizeReferenceEnd, NearsItsTargetsByThePublishedFactor) {
   EXPECT_NEAR(here, published, 0.01 * published);
 }
 
-std::string test_name(const testing::TestParamInfo<Expected>& instance) {
+std::string test_name(const testing::TestParamInfo<PublishedResult>& instance) {
   std::string name = instance.param.name;
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;

@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using std::numbers::pi;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kDrops = 59, kPeople = 100;
 
 Mesh block(const Vector3d& low, const Vector3d& high) { return moved(slab(high - low, 0.15), (low + high) / 2); }
@@ -18,7 +18,7 @@ Mesh block(const Vector3d& low, const Vector3d& high) { return moved(slab(high -
 /// A window's outline: a half disc upon a rectangle, from the origin upwards.
 Outline arched(double width, double height, int steps) {
   Outline outline = {{-width / 2, 0}, {width / 2, 0}};
-  for (const Vector2d& p : arc({0, height}, {width / 2, width / 2}, 0, kPi, steps)) outline.push_back(p);
+  for (const Vector2d& p : arc({0, height}, {width / 2, width / 2}, 0, pi, steps)) outline.push_back(p);
   return outline;
 }
 
@@ -42,10 +42,10 @@ Mesh gabled(double low_x, double high_x, double half_width, double eaves, double
 
 void add_pillar(Assembler& made, const Vector3d& foot, double height, double radius) {
   Outline profile = {{0, 0}, {1.4 * radius, 0}};
-  for (const Vector2d& p : arc({1.1 * radius, 0.4}, {0.3 * radius, 0.4}, 0, kPi / 2, made.steps(3)))
+  for (const Vector2d& p : arc({1.1 * radius, 0.4}, {0.3 * radius, 0.4}, 0, pi / 2, made.steps(3)))
     profile.push_back(p);
   for (const Vector2d& p : cut({{radius, 1}, {0.85 * radius, height - 1}}, made.steps(4))) profile.push_back(p);
-  for (const Vector2d& p : arc({1.1 * radius, height - 0.4}, {0.3 * radius, 0.4}, -kPi / 2, 0, made.steps(3))) {
+  for (const Vector2d& p : arc({1.1 * radius, height - 0.4}, {0.3 * radius, 0.4}, -pi / 2, 0, made.steps(3))) {
     profile.push_back(p);
   }
   profile.insert(profile.end(), {{1.4 * radius, height}, {0, height}});
@@ -54,7 +54,7 @@ void add_pillar(Assembler& made, const Vector3d& foot, double height, double rad
 
 Mesh dome(const Assembler& made, double radius, double rise, int around) {
   Outline profile = {{0, 0}};
-  for (const Vector2d& p : arc({0, 0}, {radius, rise}, 0, kPi / 2, made.steps(12))) profile.push_back(p);
+  for (const Vector2d& p : arc({0, 0}, {radius, rise}, 0, pi / 2, made.steps(12))) profile.push_back(p);
   profile.back() = {0, rise};
   return turned(profile, made.steps(around));
 }
@@ -102,7 +102,7 @@ Assembled church(double detail) {
   made.add("cross arm", block({8.8, 50.6, -0.9}, {9.2, 51, 0.9}));
   made.add("rose", moved(about(0, ring(2.6, 0.4, made.steps(40), made.steps(10))), {2.9, 26, 0}));
   for (int i = 0; i < 6; ++i) {
-    const double angle = kPi * i / 6;
+    const double angle = pi * i / 6;
     const Vector3d out(0, 2.6 * std::cos(angle), 2.6 * std::sin(angle));
     made.add("rose bar", rod({Vector3d(2.9, 26, 0) - out, Vector3d(2.9, 26, 0) + out}, 0.15, made.steps(8)));
   }
@@ -123,7 +123,7 @@ Assembled church(double detail) {
       made.add("band", block({x - 0.2, 1, side * 24 - 0.3}, {x + 2, 17, side * 24 + 0.3}));
   }
   for (int i = 0; i < 12; ++i) {
-    const double angle = -0.42 * kPi + 0.84 * kPi * i / 11;
+    const double angle = -0.42 * pi + 0.84 * pi * i / 11;
     add_pillar(made, {66 + 8.7 * std::cos(angle), 1, 8.7 * std::sin(angle)}, 15, 0.5);
   }
   return made.assembled();
@@ -135,10 +135,10 @@ Assembled fountain(double detail) {
   const Vector3d middle(25, 0.8, 19);
   const auto basin = [&](const std::string& name, double radius, double low, double depth) {
     Outline profile = {{0, 0.25 * depth}};
-    for (const Vector2d& p : arc({0, depth}, {radius, depth}, -kPi / 2 + 0.15, 0, made.steps(10))) profile.push_back(p);
+    for (const Vector2d& p : arc({0, depth}, {radius, depth}, -pi / 2 + 0.15, 0, made.steps(10))) profile.push_back(p);
     profile.front()[1] = profile[1][1];
     profile.insert(profile.end(), {{radius + 0.5, depth}, {radius + 0.5, depth + 0.5}, {radius - 0.5, depth + 0.5}});
-    for (const Vector2d& p : arc({0, depth}, {radius - 0.5, 0.6 * depth}, 0, -kPi / 2, made.steps(8)))
+    for (const Vector2d& p : arc({0, depth}, {radius - 0.5, 0.6 * depth}, 0, -pi / 2, made.steps(8)))
       profile.push_back(p);
     profile.back() = {0, 0.4 * depth};
     made.add(name, moved(turned(profile, made.steps(56)), middle + Vector3d(0, low, 0)));
@@ -151,14 +151,14 @@ Assembled fountain(double detail) {
   made.add("jet", moved(turned({{0, 0}, {0.4, 0}, {0.25, 3}, {0, 6}}, made.steps(16)), middle + Vector3d(0, 15, 0)));
   // Drops off the rims of the basins; a crowd around.
   for (int i = 0; i < kDrops; ++i) {
-    const double angle = 2 * kPi * i / 24, part = (i / 24 + 0.5) / 4;
+    const double angle = 2 * pi * i / 24, part = (i / 24 + 0.5) / 4;
     const double radius = 6 + 2 * part, height = 9.5 - 7 * part * part;
     made.add("drop", moved(ball({0.14, 0.25, 0.14}, made.steps(6)),
                            middle + Vector3d(radius * std::cos(angle), height, radius * std::sin(angle))));
   }
   for (int i = 0; i < kPeople; ++i) {
     // Golden angles keep them apart.
-    const double angle = i * kPi * (3 - std::sqrt(5.0));
+    const double angle = i * pi * (3 - std::sqrt(5.0));
     const double out = 1 + 0.28 * std::pow(static_cast<double>(i) / kPeople, 0.6);
     const double x = 25 + 17.5 * out * std::cos(angle), z = 19 + 12.8 * out * std::sin(angle);
     add_person(made, {x, 0.8, z}, 0.8 + 0.05 * (i % 5));

@@ -12,8 +12,8 @@ using Eigen::AngleAxisd;
 using Eigen::Translation3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using std::numbers::pi;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFrontAxle = 14, kRearAxle = 59, kAxleHeight = 7, kWheelSide = 12.6, kWheelRadius = 7;
 
 /// What the body is like at a place along x.
@@ -67,7 +67,7 @@ Outline tyre_profile(const Assembler& made) {
 Outline rim_profile(const Assembler& made) {
   Outline profile = {{0, -1.2}};
   for (const Vector2d& p : cut({{1.2, -1.2}, {4.4, -1.6}}, made.steps(2))) profile.push_back(p);
-  for (const Vector2d& p : arc({4.4, 1.2}, {0.35, 0.35}, 0, kPi, made.steps(5))) profile.push_back(p);
+  for (const Vector2d& p : arc({4.4, 1.2}, {0.35, 0.35}, 0, pi, made.steps(5))) profile.push_back(p);
   for (const Vector2d& p : cut({{3.4, 0.4}, {1.2, 0.6}}, made.steps(3))) profile.push_back(p);
   profile.emplace_back(0, 0.6);
   return profile;
@@ -75,7 +75,7 @@ Outline rim_profile(const Assembler& made) {
 
 Outline cap_profile(const Assembler& made) {
   Outline profile = {{0, 0.4}};
-  const Outline dome = arc({0, 0.4}, {2, 1.3}, 0, kPi / 2, made.steps(5));
+  const Outline dome = arc({0, 0.4}, {2, 1.3}, 0, pi / 2, made.steps(5));
   profile.insert(profile.end(), dome.begin(), dome.end() - 1);
   profile.emplace_back(0, 1.7);
   return profile;
@@ -83,8 +83,8 @@ Outline cap_profile(const Assembler& made) {
 
 /// A band over a wheel, with a lip before and behind.
 Mesh mudguard(const Assembler& made) {
-  Outline outline = arc({0, 0}, {8.6, 8.6}, 0.05 * kPi, 0.93 * kPi, made.steps(24));
-  const Outline inner = arc({0, 0}, {7.8, 7.8}, 0.93 * kPi, 0.05 * kPi, made.steps(24));
+  Outline outline = arc({0, 0}, {8.6, 8.6}, 0.05 * pi, 0.93 * pi, made.steps(24));
+  const Outline inner = arc({0, 0}, {7.8, 7.8}, 0.93 * pi, 0.05 * pi, made.steps(24));
   outline.insert(outline.end(), inner.begin(), inner.end());
   return pulled(outline, 5, made.steps(2));
 }
@@ -112,7 +112,7 @@ void add_seats(Assembler& made) {
     // Cushion and back from the side.
     Outline outline = {{36, 9}, {44.5, 9}};
     const auto round = [&](const Vector2d& centre, double radius, double from, double to) {
-      for (const Vector2d& p : arc(centre, {radius, radius}, from * kPi, to * kPi, made.steps(6))) outline.push_back(p);
+      for (const Vector2d& p : arc(centre, {radius, radius}, from * pi, to * pi, made.steps(6))) outline.push_back(p);
     };
     round({47.4, 20}, 1.3, -0.06, 0.94);
     round({41.6, 13.2}, 1.4, 0, -0.5);
@@ -144,7 +144,7 @@ void add_lights(Assembler& made) {
   // A dome towards -x, and a ring around it.
   const int around = made.steps(32);
   Outline lamp = {{0, -1.5}, {2, -0.6}};
-  for (const Vector2d& p : arc({0, 0}, {2, 0.9}, 0, kPi / 2, made.steps(6))) lamp.push_back(p);
+  for (const Vector2d& p : arc({0, 0}, {2, 0.9}, 0, pi / 2, made.steps(6))) lamp.push_back(p);
   lamp.back() = {0, 0.9};
   const auto forward = [&](const Mesh& about_y) {
     Mesh mesh = about(0, about_y);

@@ -10,8 +10,8 @@ using Eigen::AngleAxisd;
 using Eigen::Translation3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using std::numbers::pi;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDialX = 25, kDialY = 83, kDialFront = 16, kDialRadius = 12;
 constexpr int kDentils = 49, kTeeth = 49;  // Of a row.
 
@@ -29,7 +29,7 @@ void add_dial(Assembler& made) {
   made.add("bezel", at_dial(ring(kDialRadius, 1, around, made.steps(14)), front + 0.6));
   made.add("inner ring", at_dial(ring(8, 0.22, around, made.steps(8)), front + 0.8));
   for (int minute = 0; minute < 60; ++minute) {
-    const double angle = minute * kPi / 30;
+    const double angle = minute * pi / 30;
     const Vector2d out(std::sin(angle), std::cos(angle));
     const auto at = [&](double radius) {
       return Vector3d(kDialX + radius * out[0], kDialY + radius * out[1], front + 0.9);
@@ -45,16 +45,16 @@ void add_dial(Assembler& made) {
     made.add(name, placed(pulled(outline, 0.3),
                           Translation3d(kDialX, kDialY, front + z) * AngleAxisd(-angle, Vector3d::UnitZ())));
   };
-  hand("hour hand", 6, 0.45, 10.15 / 12 * 2 * kPi, 1.3);
-  hand("minute hand", 9.2, 0.35, 9.0 / 60 * 2 * kPi, 1.6);
-  hand("second hand", 10, 0.12, 36.0 / 60 * 2 * kPi, 1.9);
+  hand("hour hand", 6, 0.45, 10.15 / 12 * 2 * pi, 1.3);
+  hand("minute hand", 9.2, 0.35, 9.0 / 60 * 2 * pi, 1.6);
+  hand("second hand", 10, 0.12, 36.0 / 60 * 2 * pi, 1.9);
   made.add("boss", at_dial(turned({{0, 0.5}, {0.9, 0.5}, {0.9, 2.2}, {0.5, 2.5}, {0, 2.5}}, made.steps(20)), front));
 }
 
 void add_pendulum(Assembler& made) {
   const double bob = 27, z = 12;
   made.add("pendulum rod", rod({{kDialX, bob, z}, {kDialX, 69, z}}, 0.3, made.steps(12)));
-  Outline lens = arc({0, 0}, {4.5, 1}, -kPi / 2, kPi / 2, made.steps(12));
+  Outline lens = arc({0, 0}, {4.5, 1}, -pi / 2, pi / 2, made.steps(12));
   lens.front() = {0, -1};
   lens.back() = {0, 1};
   made.add("bob", moved(about(2, turned(lens, made.steps(48))), {kDialX, bob, z}));
@@ -66,7 +66,7 @@ void add_pendulum(Assembler& made) {
 void add_weight(Assembler& made, double x, double height) {
   const double z = 10;
   Outline profile = {{0, 0}, {1.9, 0}};
-  const Outline shoulder = arc({1.5, 10}, {0.4, 0.4}, 0, kPi / 2, made.steps(4));
+  const Outline shoulder = arc({1.5, 10}, {0.4, 0.4}, 0, pi / 2, made.steps(4));
   profile.insert(profile.end(), shoulder.begin(), shoulder.end());
   profile.insert(profile.end(), {{0.4, 10.4}, {0.4, 11}, {0, 11}});
   made.add("weight", moved(turned(profile, made.steps(24)), {x, height, z}));
@@ -84,7 +84,7 @@ void add_column(Assembler& made, const std::string& name, double x, double z, do
 
 void add_finial(Assembler& made, double x, double y, double size) {
   Outline vase = {{0, 0}, {0.9, 0}, {0.9, 0.3}, {0.4, 0.8}};
-  const Outline belly = arc({0, 1.8}, {1.1, 1.1}, -0.37 * kPi, 0.4 * kPi, made.steps(10));
+  const Outline belly = arc({0, 1.8}, {1.1, 1.1}, -0.37 * pi, 0.4 * pi, made.steps(10));
   vase.insert(vase.end(), belly.begin(), belly.end());
   vase.insert(vase.end(), {{0.15, 3.6}, {0, 3.8}});
   for (Vector2d& point : vase) point *= size;

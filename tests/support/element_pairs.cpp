@@ -30,7 +30,7 @@ PairsRest rest_of(const Mesh& mesh, const std::vector<std::vector<Pair>>& elemen
 }
 
 /// Turned, bent and shaken.
-Positions moved(const Positions& positions, double size, unsigned seed) {
+Positions shaken(const Positions& positions, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -44,7 +44,7 @@ Mesh stretched(Mesh mesh, const Eigen::Vector3d& factors) {
 }
 
 PairsCase moved_case(const std::string& name, const PairsRest& rest, double size = 1) {
-  return {name, rest, moved(rest.vertices, size, 1), unit_vectors(rest.normals.rows(), 2)};
+  return {name, rest, shaken(rest.vertices, size, 1), unit_vectors(rest.normals.rows(), 2)};
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ std::vector<PairsCase> pairs_cases() {
       moved_case("huge with normals", with_normals(vertex_pairs(transformed(sphere(1, 2), 1e4, {0, 0, 0}))), 1e4),
       moved_case("negative weights", with_negative_weights(round)),
       {"far away", vertex_pairs(far),
-       moved(far.positions.rowwise() - away.transpose(), 1, 1).rowwise() + 3 * away.transpose(), Positions(0, 3)},
+       shaken(far.positions.rowwise() - away.transpose(), 1, 1).rowwise() + 3 * away.transpose(), Positions(0, 3)},
       {"mirrored", round, round.vertices * mirror.asDiagonal(), Positions(0, 3)},
       {"onto a line", round, round.vertices * line.asDiagonal(), Positions(0, 3)},
       {"onto a point", round, 0 * round.vertices, Positions(0, 3)},

@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using std::numbers::pi;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kHoops = 9;
 
 /// Between two hoops the paper sinks in.
@@ -17,9 +17,9 @@ Outline paper(const Assembler& made) {
   Outline profile = {{0, 11}};
   const int steps = kHoops * made.steps(2);
   for (int k = 0; k <= steps; ++k) {
-    const double part = static_cast<double>(k) / steps, angle = (part - 0.5) * 0.72 * kPi;
-    const double hoop = std::abs(std::cos(kHoops * kPi * part));
-    profile.emplace_back(29.4 * std::cos(angle) + 0.8 * hoop, 30 + 19 * std::sin(angle) / std::sin(0.36 * kPi));
+    const double part = static_cast<double>(k) / steps, angle = (part - 0.5) * 0.72 * pi;
+    const double hoop = std::abs(std::cos(kHoops * pi * part));
+    profile.emplace_back(29.4 * std::cos(angle) + 0.8 * hoop, 30 + 19 * std::sin(angle) / std::sin(0.36 * pi));
   }
   profile.front()[1] = profile[1][1];
   profile.emplace_back(0, profile.back()[1]);
@@ -40,7 +40,7 @@ Assembled lantern(double detail) {
   made.add("foot", moved(turned({{0, 3.8}, {11, 3.8}, {12.5, 6.5}, {0, 6.5}}, around), {0, 0, 0}));
   made.add("bead", moved(ball({2.6, 2.0, 2.6}, made.steps(12)), {0, 2.0, 0}));
   Path handle;
-  for (const Vector2d& p : arc({0, 53}, {13.5, 7.2}, 0, kPi, made.steps(14))) handle.emplace_back(p[0], p[1], 0);
+  for (const Vector2d& p : arc({0, 53}, {13.5, 7.2}, 0, pi, made.steps(14))) handle.emplace_back(p[0], p[1], 0);
   made.add("handle", rod(handle, 0.8, made.steps(8)));
   made.add("cord", moved(about(0, ring(1.2, 0.4, made.steps(12), made.steps(5))), {0, 60.2, 0}));
   return made.assembled();

@@ -11,8 +11,7 @@ using Eigen::AngleAxisd;
 using Eigen::Translation3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Outline disc(double radius, double low, double high) { return {{0, low}, {radius, low}, {radius, high}, {0, high}}; }
 
@@ -52,7 +51,7 @@ Assembled candelabrum(double detail) {
     const double reach = 9.0 * (i + 1), low = 34 - 7.0 * i, top = 45;
     for (const double side : {-1.0, 1.0}) {
       Path arm;
-      append(arm, arc({40, top}, {side * reach, top - low}, -kPi / 2, 0, made.steps(16)));
+      append(arm, arc({40, top}, {side * reach, top - low}, -pi / 2, 0, made.steps(16)));
       made.add("arm", rod(arm, 0.7, made.steps(8)));
       made.add("arm leaf",
                moved(ball({1.1, 1.1, 0.6}, made.steps(10)), {40 + side * reach * 0.72, top - (top - low) * 0.7, 0}));
@@ -93,11 +92,11 @@ Assembled phone(double detail) {
   for (const double side : {-1.0, 1.0}) {
     made.add("cradle post", moved(turned(disc(1.2, 17, 21), made.steps(24)), {6 * side, 0, 0}));
     Path fork;
-    append(fork, arc({0, 24}, {3.4, 3.2}, kPi, 2 * kPi, made.steps(20)));
+    append(fork, arc({0, 24}, {3.4, 3.2}, pi, 2 * pi, made.steps(20)));
     Mesh bow = quarter_turned(1, rod(fork, 0.7, made.steps(16)));
     made.add("cradle fork", moved(bow, {6 * side, 0, 0}));
     Outline bell = {{0, 0}, {4.4, 0}};
-    for (const Vector2d& p : arc({0, 1.2}, {4.4, 4.2}, 0, kPi / 2, made.steps(14))) bell.push_back(p);
+    for (const Vector2d& p : arc({0, 1.2}, {4.4, 4.2}, 0, pi / 2, made.steps(14))) bell.push_back(p);
     bell.back()[0] = 0;
     Mesh cup = turned(bell, around);
     cup.positions.col(1) *= -1;
@@ -106,12 +105,12 @@ Assembled phone(double detail) {
     made.add("handset rim", moved(ring(4.4, 0.5, around, made.steps(12)), {20 * side, 22.4, 0}));
   }
   Path grip;
-  append(grip, arc({0, 18}, {22, 8.8}, 0.1 * kPi, 0.9 * kPi, made.steps(40)));
+  append(grip, arc({0, 18}, {22, 8.8}, 0.1 * pi, 0.9 * pi, made.steps(40)));
   made.add("handset grip", rod(grip, 1.9, made.steps(28)));
   Path cord;
   for (int k = 0; k <= made.steps(160); ++k) {
-    const double part = static_cast<double>(k) / made.steps(160), turn = 2 * kPi * 11 * part;
-    cord.emplace_back(-20 - 3.5 * std::sin(kPi * part) + 0.9 * std::cos(turn), 18 - 15 * part + 0.9 * std::sin(turn),
+    const double part = static_cast<double>(k) / made.steps(160), turn = 2 * pi * 11 * part;
+    cord.emplace_back(-20 - 3.5 * std::sin(pi * part) + 0.9 * std::cos(turn), 18 - 15 * part + 0.9 * std::sin(turn),
                       2 - 16 * part);
   }
   made.add("cord", rod(cord, 0.35, made.steps(10)));
@@ -143,7 +142,7 @@ Assembled camera(double detail) {
   forward("zoom ring", {{9.5, 38}, {10.8, 38}, {10.8, 43}, {9.5, 43}}, 30, 14.5);
   forward("hood", {{9, 46}, {10, 46}, {12.5, 56}, {11.5, 56}}, 30, 14.5);
   Outline glass = {{0, 47}};
-  for (const Vector2d& p : arc({0, 47}, {8.8, 3}, 0, kPi / 2, made.steps(5))) glass.push_back(p);
+  for (const Vector2d& p : arc({0, 47}, {8.8, 3}, 0, pi / 2, made.steps(5))) glass.push_back(p);
   glass.back()[0] = 0;
   forward("glass", glass, 30, 14.5);
   upward("shutter dial", disc(4, 30, 33), 48, 11);
@@ -172,7 +171,7 @@ Assembled wrench(double detail) {
   // The handle with its fixed jaw, its outline in the xz plane; then what moves.
   Outline outline;
   const auto append_arc = [&](const Vector2d& centre, const Vector2d& radii, double from, double to, int steps) {
-    for (const Vector2d& p : arc(centre, radii, from * kPi, to * kPi, made.steps(steps))) outline.push_back(p);
+    for (const Vector2d& p : arc(centre, radii, from * pi, to * pi, made.steps(steps))) outline.push_back(p);
   };
   append_arc({5, 0}, {5, 4}, 0.5, 1.5, 40);
   append_arc({36, -8}, {10, 5}, 0.5, 0.25, 14);
@@ -182,7 +181,7 @@ Assembled wrench(double detail) {
   append_arc({36, 8}, {10, 5}, 1.75, 1.5, 14);
   made.add("handle", quarter_turned(0, pulled(outline, 4, made.steps(3))));
   Outline jaw = {{50.6, 3}, {59.8, 3}, {60, 6}};
-  for (const Vector2d& p : arc({53, 5}, {6, 3.5}, 0.1 * kPi, kPi, made.steps(30))) jaw.push_back(p);
+  for (const Vector2d& p : arc({53, 5}, {6, 3.5}, 0.1 * pi, pi, made.steps(30))) jaw.push_back(p);
   made.add("moving jaw", quarter_turned(0, pulled(jaw, 3.4, made.steps(3))));
   Outline thread = {{0, -2.5}};
   for (int k = 0; k <= 10; ++k) thread.emplace_back(k % 2 == 0 ? 1.3 : 1.6, -2.5 + 0.5 * k);

@@ -13,8 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Faces {
   Path points;
@@ -92,10 +91,10 @@ Outline arc(const Vector2d& centre, const Vector2d& radii, double from, double t
 Outline rounded_rectangle(const Vector2d& size, double radius, int steps) {
   Outline points;
   for (int corner = 0; corner < 4; ++corner) {
-    const double from = corner * kPi / 2;
+    const double from = corner * pi / 2;
     const Vector2d side(corner == 0 || corner == 3 ? 1 : -1, corner < 2 ? 1 : -1);
     const Vector2d centre = side.cwiseProduct(size / 2 - Vector2d::Constant(radius));
-    const Outline bend = arc(centre, {radius, radius}, from, from + kPi / 2, steps);
+    const Outline bend = arc(centre, {radius, radius}, from, from + pi / 2, steps);
     points.insert(points.end(), bend.begin(), bend.end());
   }
   return points;
@@ -118,7 +117,7 @@ Mesh turned(const Outline& profile, int around) {
   for (const Vector2d& point : profile) {
     rings.push_back(static_cast<int>(faces.points.size()));
     for (int i = 0; i < (point[0] > 0 ? around : 1); ++i) {
-      const double angle = 2 * kPi * i / around;
+      const double angle = 2 * pi * i / around;
       faces.add({point[0] * std::cos(angle), point[1], -point[0] * std::sin(angle)});
     }
   }
@@ -173,7 +172,7 @@ Mesh rod(const Path& path, double radius, int around, bool closed) {
     along = next;
     Path points;
     for (int k = 0; k < around; ++k) {
-      const double angle = 2 * kPi * k / around;
+      const double angle = 2 * pi * k / around;
       points.emplace_back(path[i] + radius * (std::cos(angle) * across + std::sin(angle) * along.cross(across)));
     }
     rings.push_back(std::move(points));
@@ -221,7 +220,7 @@ Mesh slab(const Vector3d& size, double bevel) {
 
 Mesh ball(const Vector3d& radii, int around) {
   const int rings = std::max(around / 2, 3);
-  Outline profile = arc({0, 0}, {1, 1}, -kPi / 2, kPi / 2, rings);
+  Outline profile = arc({0, 0}, {1, 1}, -pi / 2, pi / 2, rings);
   profile.front() = {0, -1};
   profile.back() = {0, 1};
   Mesh mesh = turned(profile, around);
@@ -230,7 +229,7 @@ Mesh ball(const Vector3d& radii, int around) {
 }
 
 Mesh ring(double radius, double thickness, int around, int across) {
-  Outline profile = arc({radius, 0}, {thickness, thickness}, 0, 2 * kPi, across);
+  Outline profile = arc({radius, 0}, {thickness, thickness}, 0, 2 * pi, across);
   profile.pop_back();
   return turned(profile, around);
 }

@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using std::numbers::pi;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kAxis = 8, kRadius = 6, kCap = 3.6, kEnd = 40;  // Height of the axis, radius, depth of a cap, length.
 
 /// A turned part with its axis along x.
@@ -21,7 +21,7 @@ void add_shell(Assembler& made) {
   const double low = kCap, high = kEnd - kCap;
   made.add("shell", along_x(turned({{0, low}, {kRadius, low}, {kRadius, high}, {0, high}}, around), 0));
   Outline dome = {{0, 0}};
-  for (const Vector2d& p : arc({0, 0}, {kRadius, kCap}, 0, kPi / 2, made.steps(9))) dome.push_back(p);
+  for (const Vector2d& p : arc({0, 0}, {kRadius, kCap}, 0, pi / 2, made.steps(9))) dome.push_back(p);
   dome.back() = {0, kCap};
   const Mesh cap = along_x(turned(dome, around), 0);
   made.add("cap", moved(cap, {high, 0, 0}));
@@ -39,8 +39,7 @@ void add_feet(Assembler& made) {
   for (const double x : {9.0, 31.0}) {
     // A saddle under the shell, whose upper side is round.
     Outline outline = {{-5.4, 1.6}, {5.4, 1.6}};
-    for (const Vector2d& p : arc({0, kAxis}, {6.3, 6.3}, -0.18 * kPi, -0.82 * kPi, made.steps(14)))
-      outline.push_back(p);
+    for (const Vector2d& p : arc({0, kAxis}, {6.3, 6.3}, -0.18 * pi, -0.82 * pi, made.steps(14))) outline.push_back(p);
     made.add("saddle", moved(quarter_turned(1, pulled(outline, 2)), {x, 0, 0}));
     for (const double z : {-4.4, 4.4}) {
       made.add("leg", moved(turned({{0, 0.4}, {0.7, 0.4}, {0.7, 1.7}, {0, 1.7}}, made.steps(16)), {x, 0, z}));
@@ -64,11 +63,11 @@ void add_hatch(Assembler& made, double x, double radius, int bolts) {
   add("hatch neck", disc(radius, base, top));
   add("hatch flange", disc(radius + 0.7, top, top + 0.35));
   Outline lid = {{0, top + 0.35}, {radius + 0.7, top + 0.35}, {radius + 0.7, top + 0.7}};
-  for (const Vector2d& p : arc({0, top + 0.7}, {radius - 0.3, 0.45}, 0, kPi / 2, made.steps(4))) lid.push_back(p);
+  for (const Vector2d& p : arc({0, top + 0.7}, {radius - 0.3, 0.45}, 0, pi / 2, made.steps(4))) lid.push_back(p);
   lid.back() = {0, top + 1.15};
   add("hatch lid", lid);
   for (int i = 0; i < bolts; ++i) {
-    const double angle = 2 * kPi * (i + 0.5) / bolts, at = radius + 0.28;
+    const double angle = 2 * pi * (i + 0.5) / bolts, at = radius + 0.28;
     made.add("bolt", moved(turned({{0, 0}, {0.2, 0}, {0.2, 0.35}, {0, 0.35}}, made.steps(8)),
                            {x + at * std::cos(angle), top + 0.65, at * std::sin(angle)}));
   }
