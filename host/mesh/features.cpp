@@ -16,7 +16,7 @@ namespace {
 
 // In box diagonals: rounding of coordinates, as in files of single precision, may have made a plane or direction of
 // less.
-constexpr double kFlat = 1e-6;
+constexpr double kLeastExtent = 1e-6;
 // Flat triangles side by side that are looked across.
 constexpr int kMostHops = 100;
 
@@ -35,7 +35,7 @@ class BesideEdges {
  public:
   BesideEdges(const PositionsRef& positions, const Triangles& triangles)
       : positions_(positions), triangles_(triangles), edges_(edges_of(triangles)) {
-    least_ = kFlat * box_diagonal(positions);
+    least_ = kLeastExtent * box_diagonal(positions);
     for (Eigen::Index e = 0; e < edges_.vertices.rows(); ++e) {
       lengths_.push_back((positions.row(edges_.vertices(e, 1)) - positions.row(edges_.vertices(e, 0))).norm());
     }

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 
 // Of cotangents: a sum that rounding alone brings below 0 is none. Else four vertices on a circle flip for ever.
-constexpr double kRounding = 1e-10;
+constexpr double kCotangentRounding = 1e-10;
 
 /// By Kahan's formula, which needles do not upset.
 double area_of(std::array<double, 3> l) {
@@ -80,7 +80,7 @@ class Flips {
     const int other = twin(side);
     if (other < 0 || other / 3 == side / 3) return false;
     const double a = cotangent(side), b = cotangent(other);
-    return a + b < -kRounding * (1 + std::abs(a) + std::abs(b));
+    return a + b < -kCotangentRounding * (1 + std::abs(a) + std::abs(b));
   }
 
   /// Where the third corner of a side's triangle lies, the side laid along the x axis from 0.

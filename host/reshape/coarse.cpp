@@ -21,8 +21,8 @@ Curvatures mean_curvatures(const Proxy& proxy, const Curvatures& fine) {
 /// Handed from few triangles to many, transforms jump where the stand-in's triangles meet: passes would take that for
 /// shape, and be long in undoing it.
 Transforms smoothed(Transforms transforms, const Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>& pairs) {
-  constexpr int kRounds = 10;
-  for (int round = 0; round < kRounds; ++round) {
+  constexpr int kSmoothings = 10;
+  for (int round = 0; round < kSmoothings; ++round) {
     Transforms sums = transforms;
     Eigen::VectorXd counts = Eigen::VectorXd::Ones(sums.rows());
     for (const auto& pair : pairs.rowwise()) {
@@ -62,7 +62,7 @@ std::size_t CoarsePlan::bytes() const {
 
 std::unique_ptr<CoarsePlan> coarse_plan(const ReshapePlan& plan, const Curvatures& unit_box_curvatures,
                                         const Poll& poll, std::string& why_none) {
-  constexpr int kTriangles = 10'000;   // Solved in a second.
+  constexpr int kCoarse = 10'000;      // Solved in a second.
   constexpr int kWorthwhile = 40'000;  // Below, the passes it saves take as long.
   const Eigen::Index count = plan.mesh.triangles.rows();
   if (!plan.options.coarse_start || plan.options.solver == ReshapeSolver::published) {
@@ -71,7 +71,7 @@ std::unique_ptr<CoarsePlan> coarse_plan(const ReshapePlan& plan, const Curvature
     why_none = std::to_string(count) + " triangles";
   }
   if (!why_none.empty()) return nullptr;
-  Proxy proxy = decimate(plan.mesh, kTriangles, {}, [&](double) {
+  Proxy proxy = decimate(plan.mesh, kCoarse, {}, [&](double) {
     poll();
     return true;
   });

@@ -40,12 +40,12 @@ int opposite(const Triangles& triangles, int triangle, const Eigen::RowVector2i&
 
 /// Each two triangles beside an edge. Of very many, each and the next: their pairs would outgrow the mesh.
 std::vector<std::array<int, 3>> pairs_of(const Edges& edges) {
-  constexpr int kMany = 16;
+  constexpr int kManyBeside = 16;
   std::vector<std::array<int, 3>> pairs;
   for (int e = 0; e < edges.triangles.size(); ++e) {
     const Lists::Range beside = edges.triangles[e];
     for (int i = 0; i < beside.size(); ++i) {
-      const int last = beside.size() > kMany ? std::min(i + 2, beside.size()) : beside.size();
+      const int last = beside.size() > kManyBeside ? std::min(i + 2, beside.size()) : beside.size();
       for (int j = i + 1; j < last; ++j) pairs.push_back({beside[i], beside[j], e});
     }
   }

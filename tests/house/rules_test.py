@@ -122,6 +122,33 @@ class Text(unittest.TestCase):
                 self.assertEqual(len(breaches(folder, line)), 1)
 
 
+def constants(text, where):
+    """Constants declared at `where`, a pattern of what stands before them in their line."""
+    lines = re.findall(rf"^{where}(?:static )?constexpr (.*)$", text, re.MULTILINE)
+    return {name for line in lines for name in re.findall(r"\b(k[A-Z]\w*)(?=\s*[=\[{])", line)}
+
+
+class LongFiles(unittest.TestCase):
+    """The files of a folder compile as one: a function's constant must not hide another file's, which Clang refuses and
+    GCC does not tell."""
+
+    def test_hide_no_constant(self):
+        folders = {path.parent for top in ("host", "cpu_ref", "tests") for path in SOURCES.glob(f"{top}/**/*.cpp")}
+        self.assertGreater(len(folders), 20)
+        for folder in sorted(folders):
+            texts = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.cpp")}
+            of_files = {name: constants(text, "") for name, text in texts.items()}
+            for name, text in texts.items():
+                others = set().union(*(of_files[other] for other in texts if other != name))
+                with self.subTest(path=folder.relative_to(SOURCES) / name):
+                    self.assertEqual(constants(text, r"[ \t]+") & others, set())
+
+    def test_is_seen_to_find_them(self):
+        text = "constexpr double kA = 1, kB = 2;\nvoid f() {\n  constexpr int kC[] = {1};\n}\n"
+        self.assertEqual(constants(text, ""), {"kA", "kB"})
+        self.assertEqual(constants(text, r"[ \t]+"), {"kC"})
+
+
 class IncludePaths(unittest.TestCase):
     """Each folder's own compile command, over one line that includes another folder's header."""
 

@@ -11,8 +11,8 @@
 namespace swage {
 namespace {
 
-constexpr double kStep = 1e-6;       // Of a central difference: its error is rounding, energies being quadratic.
-constexpr double kTolerance = 1e-6;  // Relative to the gradient's length.
+constexpr double kDifference = 1e-6;  // Of a central difference: its error is rounding, energies being quadratic.
+constexpr double kTolerance = 1e-6;   // Relative to the gradient's length.
 
 /// A small round shape with every term alive: curved, so that sphericity counts, and a straight chain.
 struct Case {
@@ -59,9 +59,9 @@ void expect_gradient(const Eigen::VectorXd& gradient, const Eigen::VectorXd& at,
   ASSERT_GT(gradient.norm(), 1e-8) << "the term is not alive";
   for (Eigen::Index i = 0; i < at.size(); i += 7) {
     Eigen::VectorXd ahead = at, behind = at;
-    ahead[i] += kStep;
-    behind[i] -= kStep;
-    const double difference = (energy(ahead) - energy(behind)) / (2 * kStep);
+    ahead[i] += kDifference;
+    behind[i] -= kDifference;
+    const double difference = (energy(ahead) - energy(behind)) / (2 * kDifference);
     ASSERT_NEAR(gradient[i], difference, kTolerance * gradient.norm()) << "unknown " << i;
   }
 }
