@@ -17,7 +17,7 @@ constexpr int kCoefficients = 5;
 constexpr double kLine = 1e-4;
 // Singular values below this part of the largest are 0: six-digit coordinates make some 1e-5 of nothing. Where
 // every coefficient can be told, the smallest is usually a tenth.
-constexpr double kSingular = 1e-3;
+constexpr double kRankTolerance = 1e-3;
 
 /// The gradient and the second derivatives of a height at the vertex.
 struct Quadric {
@@ -33,7 +33,7 @@ Quadric fit_quadric(const Eigen::MatrixX2d& places, const Eigen::VectorXd& heigh
   // With the root, no turn of the axes changes how flat a quadric counts.
   terms << x * x, std::numbers::sqrt2 * x * y, y * y, x, y;
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(terms, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(kSingular);
+  svd.setThreshold(kRankTolerance);
   if (svd.rank() < kCoefficients - 1) return {};
   const Eigen::VectorXd c = svd.solve(heights);
   Quadric quadric;

@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kLeastSlope = 1e-9;  // Of the field: below it there is no direction and no distance.
-constexpr double kLeastHigh = 1;      // Percent, of the colour bar.
+constexpr double kLeastPercent = 1;   // Of the colour bar.
 
 Positions middles(const Mesh& mesh) {
   Positions points(mesh.triangles.rows(), 3);
@@ -72,7 +72,7 @@ Image picture_of_fit(const PictureOptions& options, const ShownFit& shown, const
   VectorXd off = grey(together.triangles.rows());
   off.head(count) = 100 * shown.miss.off;
   RenderOptions render = render_options_of(options, up_of(shown.of, shown.fit.pose));
-  render.heat_map = {0, rounded_up(std::max(kLeastHigh, 200 * shown.fit.residual)), "distance, % of the diagonal"};
+  render.heat_map = {0, rounded_up(std::max(kLeastPercent, 200 * shown.fit.residual)), "distance, % of the diagonal"};
   const std::string name = std::filesystem::path(shown.path).stem().string();
   return drawn({{shown.mesh, name, {}, grey(count), {}},
                 {shown.surface, shown.of.name(), {}, grey(shown.surface.triangles.rows()), {}},

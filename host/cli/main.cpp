@@ -21,7 +21,7 @@ void start_log() {
   spdlog::set_default_logger(std::move(log));
 }
 
-int run(int argc, char** argv) {
+int run_command(int argc, char** argv) {
   CLI::App program{"Edits the shape of triangle meshes the way a person would expect.", "swage"};
   CommonOptions common;
   std::vector<Command> commands = {reshape_command(program, common), stylize_command(program, common),
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   swage::cli::start_log();
   swage::cli::watch_interrupts();
   try {
-    return swage::cli::run(argc, argv);
+    return swage::cli::run_command(argc, argv);
   } catch (...) {
     return swage::cli::explain_failure();
   }

@@ -31,7 +31,7 @@ void fill_closed_streams() {
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
     for (const char* part : {"swage: error: ", kOutOfMemory, "\n"}) {
-      if (write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+      if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
     }
     _exit(exit_failed);
   } catch (...) {

@@ -10,7 +10,7 @@
 namespace swage::cli {
 namespace {
 
-constexpr double kLeastHigh = 5;  // Degrees, of the colour bar.
+constexpr double kLeastDegrees = 5;  // Of the colour bar.
 
 Json before_and_after(const Stylized& run, Json (*json)(const StyleMeasures&)) {
   return {{"before", json(run.before)}, {"after", json(run.after)}};
@@ -79,7 +79,7 @@ Image picture_of(const StylizeJob& job, const Stylized& run, const CommonOptions
     for (Panel& panel : panels) panel.face_values.resize(0);
   } else {
     const double high = degrees(std::max(run.before.angle.percentile_95, run.after.angle.percentile_95));
-    options.heat_map = {0, rounded_up(std::max(kLeastHigh, high)), "normals to their targets, degrees"};
+    options.heat_map = {0, rounded_up(std::max(kLeastDegrees, high)), "normals to their targets, degrees"};
   }
   return drawn(panels, options, common);
 }

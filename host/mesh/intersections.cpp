@@ -31,9 +31,9 @@ Positions in_middle_of_range(const Positions& positions) {
 }
 
 /// Those triangles that span a plane, in a tree.
-class Surface {
+class BoxedTriangles {
  public:
-  Surface(const Positions& positions, const Triangles& triangles)
+  BoxedTriangles(const Positions& positions, const Triangles& triangles)
       : positions_(in_middle_of_range(positions)),
         triangles_(welded(triangles, first_at_place(positions))),
         boxes_(keep_and_bound()),
@@ -84,7 +84,7 @@ class Surface {
 /// Searches leaf after leaf, by all threads, in slices of time.
 class Search {
  public:
-  Search(const Surface& surface, std::size_t most)
+  Search(const BoxedTriangles& surface, std::size_t most)
       : surface_(surface), most_(most), of_leaves_(static_cast<size_t>(surface.leaf_count())) {}
 
   double part() const { return std::min(1.0, 1.0 * next_ / surface_.leaf_count()); }
@@ -118,7 +118,7 @@ class Search {
   }
 
  private:
-  const Surface& surface_;
+  const BoxedTriangles& surface_;
   std::size_t most_;
   std::vector<Pairs> of_leaves_;
   std::atomic<int> next_ = 0;
@@ -129,7 +129,7 @@ class Search {
 
 Crossings self_intersections(const Positions& positions, const Triangles& triangles, std::size_t most_pairs,
                              const std::function<bool(double)>& goes_on) {
-  const Surface surface(positions, triangles);
+  const BoxedTriangles surface(positions, triangles);
   Search search(surface, most_pairs);
   bool going = true;
   while (going && !search.is_done()) {

@@ -11,16 +11,16 @@ namespace {
 
 using Eigen::Index;
 
-using Corners = Eigen::RowVector3i;
+using Triple = Eigen::RowVector3i;
 
 /// A triangle whose edges have middles; -1: none.
-void split(const Positions& positions, const Corners& corners, const Corners& middles, std::vector<Corners>& into) {
-  const auto turned = [](const Corners& of, int by) { return Corners(of[by % 3], of[(by + 1) % 3], of[(by + 2) % 3]); };
+void split(const Positions& positions, const Triple& corners, const Triple& middles, std::vector<Triple>& into) {
+  const auto turned = [](const Triple& of, int by) { return Triple(of[by % 3], of[(by + 1) % 3], of[(by + 2) % 3]); };
   const auto count = (middles.array() >= 0).count();
   // So that the first edge is the only one with a middle, or without.
   int first = 0;
   while (count > 0 && count < 3 && (middles[first] >= 0) != (count == 1)) ++first;
-  const Corners c = turned(corners, first), m = turned(middles, first);
+  const Triple c = turned(corners, first), m = turned(middles, first);
   const auto length = [&](int a, int b) { return (positions.row(a) - positions.row(b)).squaredNorm(); };
   if (count == 0) {
     into.push_back(corners);
@@ -73,9 +73,9 @@ Mesh split_long_edges(const Mesh& mesh, double longest, Index most) {
       result.positions.row(middle) = (result.positions.row(ends[0]) + result.positions.row(ends[1])) / 2;
       middles[e] = static_cast<int>(middle++);
     }
-    std::vector<Corners> triangles;
+    std::vector<Triple> triangles;
     for (Index t = 0; t < result.triangles.rows(); ++t) {
-      const Corners on = edges.triangle_edges.row(t);
+      const Triple on = edges.triangle_edges.row(t);
       split(result.positions, result.triangles.row(t), {middles[on[0]], middles[on[1]], middles[on[2]]}, triangles);
     }
     result.triangles.resize(static_cast<Index>(triangles.size()), 3);

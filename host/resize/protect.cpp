@@ -15,19 +15,19 @@ using Eigen::Index;
 
 constexpr double kGrazing = 1e-9;  // Cells: a box that ends where a cell begins does not touch it.
 
-[[noreturn]] void refuse(const std::string& what) { throw InvalidInput("Resize: protection." + what); }
+[[noreturn]] void refuse_protection(const std::string& what) { throw InvalidInput("Resize: protection." + what); }
 
 void check_protection(const ResizePlan& plan, const Protection& protection) {
   if (!(protection.value >= 0 && protection.value <= 1))
-    refuse("value: " + digits(protection.value) + " is not in [0, 1]");
+    refuse_protection("value: " + digits(protection.value) + " is not in [0, 1]");
   for (const int t : protection.triangles) {
     if (t < 0 || t >= plan.mesh->triangles.rows()) {
-      refuse("triangles: " + std::to_string(t) + " is none of the " + std::to_string(plan.mesh->triangles.rows()) +
-             " triangles");
+      refuse_protection("triangles: " + std::to_string(t) + " is none of the " +
+                        std::to_string(plan.mesh->triangles.rows()) + " triangles");
     }
   }
   if (protection.box && !(protection.box->min().array() <= protection.box->max().array()).all()) {
-    refuse("box: a corner is not a number, or the lower is above the upper along an axis; mend them");
+    refuse_protection("box: a corner is not a number, or the lower is above the upper along an axis; mend them");
   }
 }
 
@@ -81,7 +81,7 @@ void protect(ResizePlan& plan, const Protection& protection) {
   each_coverage(plan.shape, chosen, *plan.options.backend, {}, [&](Index, std::span<const int> touched) {
     cells.insert(cells.end(), touched.begin(), touched.end());
   });
-  if (cells.empty()) refuse("triangles, box: they touch no cell of the grid; select others");
+  if (cells.empty()) refuse_protection("triangles, box: they touch no cell of the grid; select others");
   for (int u = 0; u < 3; ++u) {
     if (!protection.axes[static_cast<size_t>(u)]) continue;
     for (const Index c : cells) plan.said(c, u) = protection.value;

@@ -20,7 +20,7 @@ constexpr double kTimeStep = 1e-3;  // Of unit area.
 constexpr double kStill = 1e-9;
 constexpr int kStepLimit = 300;
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_surface(const std::string& why) {
   throw Unsolvable("sphere_map: style: " + why + "; take another style, or its closest normals");
 }
 
@@ -29,16 +29,17 @@ void check_topology(const Mesh& style) {
   const Edges edges = edges_of(style.triangles);
   for (int e = 0; e < edges.triangles.size(); ++e) {
     if (edges.triangles[e].size() == 2) continue;
-    refuse("the edge of vertices " + std::to_string(edges.vertices(e, 0)) + " and " +
-           std::to_string(edges.vertices(e, 1)) + " has " + std::to_string(edges.triangles[e].size()) +
-           " triangles, not two: only a closed surface flows to a sphere");
+    refuse_surface("the edge of vertices " + std::to_string(edges.vertices(e, 0)) + " and " +
+                   std::to_string(edges.vertices(e, 1)) + " has " + std::to_string(edges.triangles[e].size()) +
+                   " triangles, not two: only a closed surface flows to a sphere");
   }
   const std::vector<int> component = components(style.triangles, static_cast<int>(style.positions.rows()));
   const int parts = 1 + *std::max_element(component.begin(), component.end());
-  if (parts > 1) refuse(std::to_string(parts) + " components: only a surface in one part flows to a sphere");
+  if (parts > 1) refuse_surface(std::to_string(parts) + " components: only a surface in one part flows to a sphere");
   const Eigen::Index euler = style.positions.rows() - edges.vertices.rows() + style.triangles.rows();
   if (euler != 2) {
-    refuse("Euler characteristic " + std::to_string(euler) + ", a sphere's is 2: it has tunnels or pinched vertices");
+    refuse_surface("Euler characteristic " + std::to_string(euler) +
+                   ", a sphere's is 2: it has tunnels or pinched vertices");
   }
 }
 
@@ -67,7 +68,7 @@ Positions flowed(const Mesh& style, bool scaled) {
     factor.factorize(matrix);
     const Eigen::MatrixX3d right = mass.asDiagonal() * positions;
     Positions next = factor.solve(right);
-    if (factor.info() != Eigen::Success || !next.allFinite()) refuse("the flow to a sphere broke down");
+    if (factor.info() != Eigen::Success || !next.allFinite()) refuse_surface("the flow to a sphere broke down");
     centre_and_scale(next, style.triangles);
     const Positions moved = next - positions;
     positions = next;
@@ -86,9 +87,9 @@ SphereMap sphere_map(const Mesh& style, bool nearest) {
   const Positions directions = normalised(sphere);
   const int folded = folded_triangles(directions, style.triangles);
   if (folded > 0) {
-    refuse("the flow does not reach a sphere: " + std::to_string(folded) + " of " +
-           std::to_string(style.triangles.rows()) + " triangles are folded after " + std::to_string(kStepLimit) +
-           " steps at most, or wind inside out");
+    refuse_surface("the flow does not reach a sphere: " + std::to_string(folded) + " of " +
+                   std::to_string(style.triangles.rows()) + " triangles are folded after " +
+                   std::to_string(kStepLimit) + " steps at most, or wind inside out");
   }
   return {nearest ? vertex_normals(sphere, style.triangles) : directions, style.triangles,
           vertex_normals(style.positions, style.triangles), nearest};

@@ -40,7 +40,7 @@ const char* const kOfResult[] = {"factors",
                                  "new_self_intersections",
                                  "seconds_by_stage"};
 
-void expect_keys(const json& told, const auto& keys) {
+void expect_names(const json& told, const auto& keys) {
   for (const char* key : keys) {
     EXPECT_TRUE(told.contains(key)) << key;
     EXPECT_FALSE(told.value(key, json()).is_null()) << key;
@@ -50,8 +50,8 @@ void expect_keys(const json& told, const auto& keys) {
 TEST_F(Resizing, AReportOfOneResultHasItOnTheTop) {
   const json told = report({"--scale", "2,1,0.5", "--anchor", "high,low,center", "--protect", "component:1:y=0.75",
                             "--release", "x<1", "--threads", "2"});
-  expect_keys(told, kCommon);
-  expect_keys(told, kOfResult);
+  expect_names(told, kCommon);
+  expect_names(told, kOfResult);
   EXPECT_FALSE(told.contains("results"));
   EXPECT_EQ(told["command"], "resize");
   EXPECT_EQ(told["method"], "keep shape");
@@ -88,10 +88,10 @@ TEST_F(Resizing, ABoxIsToldAsItCame) {
 
 TEST_F(Resizing, AReportOfSeveralResultsListsThem) {
   const json told = report({"--scale", "2,1,1", "--scale", "0.2,1,4", "-o", file("out.obj"), "--keep", "size"});
-  expect_keys(told, kCommon);
+  expect_names(told, kCommon);
   ASSERT_EQ(told["results"].size(), 2U);
   for (const char* key : {"factors", "energy", "stop", "box_after"}) EXPECT_FALSE(told.contains(key)) << key;
-  for (const json& result : told["results"]) expect_keys(result, kOfResult);
+  for (const json& result : told["results"]) expect_names(result, kOfResult);
   EXPECT_EQ(told["results"][0]["output"], file("out_1.obj"));
   EXPECT_EQ(told["results"][1]["output"], file("out_2.obj"));
   EXPECT_EQ(told["results"][1]["factors"], (json{0.2, 1, 4}));
@@ -118,7 +118,7 @@ TEST_F(Resizing, WarningsAreToldWithWhatTheyAreOf) {
 
 TEST_F(Resizing, ModelsAreLookedAtWithoutATarget) {
   const json told = report({"--vulnerability", file("v.ply"), "--grid-before", file("g.ply")});
-  expect_keys(told, kCommon);
+  expect_names(told, kCommon);
   for (const char* key : {"factors", "results", "energy"}) EXPECT_FALSE(told.contains(key)) << key;
   EXPECT_EQ(names_in(folder_.path()), (std::vector<std::string>{"g.ply", "model.obj", "v.ply"}));
 }

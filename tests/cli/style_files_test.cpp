@@ -161,15 +161,15 @@ TEST_F(WithPictures, ANormalMapIsRelief) {
   EXPECT_THAT(read_text(file("result.obj")), HasSubstr("\ng cloth\n"));
 }
 
-struct Refusal {
+struct BadStyle {
   Arguments arguments;  ///< "@" stands for the folder.
   std::string says;
 };
 
 class StylizeRefuses : public StyleFilesProgram {
  protected:
-  void expect(int code, const std::vector<Refusal>& refusals) const {
-    for (const Refusal& refusal : refusals) {
+  void expect(int code, const std::vector<BadStyle>& refusals) const {
+    for (const BadStyle& refusal : refusals) {
       Arguments arguments = refusal.arguments;
       arguments.insert(arguments.begin(), "stylize");
       for (std::string& argument : arguments) {

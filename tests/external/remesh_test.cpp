@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,9 +23,8 @@
 namespace swage {
 namespace {
 
+using test::kDegree;
 using testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class Remesh : public testing::Test {
  protected:

@@ -4,15 +4,11 @@
 
 #include <Eigen/Geometry>
 
-#include <numbers>
-
 #include "measures.h"
 #include "shapes.h"
 
 namespace swage::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// About the x axis.
 Positions rotated(const Positions& positions, double angle) {

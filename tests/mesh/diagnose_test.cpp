@@ -25,7 +25,7 @@ Mesh tetrahedron() {
 }
 
 /// With another vertex and another triangle.
-Mesh with(Mesh mesh, const Eigen::RowVector3d& vertex, const Eigen::RowVector3i& triangle) {
+Mesh with_triangle(Mesh mesh, const Eigen::RowVector3d& vertex, const Eigen::RowVector3i& triangle) {
   mesh.positions.conservativeResize(mesh.positions.rows() + 1, 3);
   mesh.positions.bottomRows(1) = vertex;
   mesh.triangles.conservativeResize(mesh.triangles.rows() + 1, 3);
@@ -53,12 +53,12 @@ TEST(Diagnose, AGoodMeshHasNothingWrong) {
 }
 
 TEST(Diagnose, NamesThePlaceOfEachDefect) {
-  const Diagnosis fin = diagnose(with(tetrahedron(), {3, 3, 3}, {1, 3, 4}));
+  const Diagnosis fin = diagnose(with_triangle(tetrahedron(), {3, 3, 3}, {1, 3, 4}));
   EXPECT_EQ(fin.non_manifold_edges.first, (Pair{1, 3}));
   EXPECT_EQ(fin.boundary_edges.first, (Pair{1, 4}));
   EXPECT_EQ(fin.boundary_edges.count, 2);
 
-  const Diagnosis twice = diagnose(with(tetrahedron(), {0, 1, 0}, {3, 2, 1}));
+  const Diagnosis twice = diagnose(with_triangle(tetrahedron(), {0, 1, 0}, {3, 2, 1}));
   EXPECT_EQ(twice.duplicate_triangles.first, 4);
   EXPECT_EQ(twice.duplicate_vertices.first, 4);
   EXPECT_EQ(twice.isolated_vertices.first, 4);
@@ -77,7 +77,7 @@ TEST(Diagnose, NamesThePlaceOfEachDefect) {
   EXPECT_EQ(diagnose(touching).components, 2);
   EXPECT_EQ(diagnose(touching).welded_components, 1);
 
-  const Diagnosis flat = diagnose(with(tetrahedron(), {0.5, 0, 0}, {0, 1, 4}));
+  const Diagnosis flat = diagnose(with_triangle(tetrahedron(), {0.5, 0, 0}, {0, 1, 4}));
   EXPECT_EQ(flat.degenerate_triangles.first, 4);
   EXPECT_EQ(flat.degenerate_triangles.count, 1);
   EXPECT_NEAR(flat.smallest_angle, std::numbers::pi / 4, 1e-12) << "of those with area";
@@ -86,7 +86,7 @@ TEST(Diagnose, NamesThePlaceOfEachDefect) {
 }
 
 TEST(Diagnose, ATriangleThatNamesAVertexTwiceIsNoPartOfTheSurface) {
-  const Diagnosis found = diagnose(with(tetrahedron(), {5, 5, 5}, {1, 2, 2}));
+  const Diagnosis found = diagnose(with_triangle(tetrahedron(), {5, 5, 5}, {1, 2, 2}));
   EXPECT_EQ(found.degenerate_triangles.first, 4);
   EXPECT_EQ(found.non_manifold_edges.count, 0);
   EXPECT_EQ(found.boundary_edges.count, 0);

@@ -16,7 +16,7 @@
 namespace swage {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+using test::kDegree;
 
 FeatureEdges features(const Mesh& mesh, double degrees = 160) {
   return feature_edges(mesh.positions, mesh.triangles, degrees * kDegree);

@@ -39,19 +39,14 @@ Mesh slanted(Mesh mesh, double by) {
   return mesh;
 }
 
-struct Shape {
-  std::string name;
-  Mesh mesh;
-};
-
-std::vector<Shape> shapes() {
+std::vector<NamedMesh> twisted_meshes() {
   return {{"tube", twisted(cylinder(0.5, 4, 64, 3), 0.7)},
           {"twisted", twisted(sphere(1, 3), 4)},
           {"slanted", slanted(sheet(8), 6.3)},
           {"apart", joined(twisted(torus(1, 0.4, 24, 12), 3), slanted(sheet(5), 2.2))}};
 }
 
-class IntrinsicDelaunay : public testing::TestWithParam<Shape> {};
+class IntrinsicDelaunay : public testing::TestWithParam<NamedMesh> {};
 
 /// Of the angle that faces side k, by its cosine.
 double facing(const IntrinsicTriangles& of, Eigen::Index t, int k) {
@@ -132,7 +127,7 @@ TEST_P(IntrinsicDelaunay, HasALaplacianWithoutNegativeWeightsInside) {
             -1e-10 * laplacian.diagonal().maxCoeff());
 }
 
-INSTANTIATE_TEST_SUITE_P(Any, IntrinsicDelaunay, testing::ValuesIn(shapes()),
+INSTANTIATE_TEST_SUITE_P(Any, IntrinsicDelaunay, testing::ValuesIn(twisted_meshes()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(IntrinsicDelaunay, LeavesADelaunayMeshAlone) {

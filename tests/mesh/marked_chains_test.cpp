@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "chains.h"
 #include "places.h"
 #include "swage/features.h"
 #include "swage/handles.h"
@@ -13,15 +14,8 @@
 namespace swage {
 namespace {
 
-using Chains = std::vector<std::vector<int>>;
-
-std::set<std::pair<int, int>> edges_in(const Chains& chains) {
-  std::set<std::pair<int, int>> edges;
-  for (const std::vector<int>& chain : chains) {
-    for (size_t i = 1; i < chain.size(); ++i) edges.insert(std::minmax(chain[i - 1], chain[i]));
-  }
-  return edges;
-}
+using test::Chains;
+using test::edges_in;
 
 struct Marked {
   const char* model;

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <set>
 
 #include "adjacency.h"
+#include "chains.h"
 #include "shapes.h"
 #include "swage/error.h"
 #include "swage/features.h"
@@ -16,17 +18,9 @@
 namespace swage {
 namespace {
 
-using Chains = std::vector<std::vector<int>>;
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-std::set<std::pair<int, int>> edges_in(const Chains& chains) {
-  std::set<std::pair<int, int>> edges;
-  for (const std::vector<int>& chain : chains) {
-    for (size_t i = 1; i < chain.size(); ++i) edges.insert(std::minmax(chain[i - 1], chain[i]));
-  }
-  return edges;
-}
+using test::Chains;
+using test::edges_in;
+using test::kDegree;
 
 /// Of the mesh, with what holds for chains of any.
 Chains chains_of(const Mesh& mesh, const StraightOptions& options = {}) {

@@ -22,7 +22,7 @@ Gesture lift(const Mesh& mesh, const Eigen::Vector3d& by) {
   return gesture;
 }
 
-Positions reshaped(const Mesh& mesh, const Gesture& gesture, ReshapeMethod method, ReshapeSolver solver) {
+Positions reshaped_by(const Mesh& mesh, const Gesture& gesture, ReshapeMethod method, ReshapeSolver solver) {
   ReshapeOptions options;
   options.method = method;
   options.solver = solver;
@@ -36,7 +36,7 @@ TEST_P(Alup, ABoxMadeHigherKeepsItsNormalsLessThanSlippageDoes) {
   const Mesh mesh = box({1, 1, 1}, 6);
   const Gesture gesture = lift(mesh, {0, 0.6, 0});
   const auto change = [&](ReshapeMethod method) {
-    return mean_normal_change(mesh, reshaped(mesh, gesture, method, GetParam()));
+    return mean_normal_change(mesh, reshaped_by(mesh, gesture, method, GetParam()));
   };
   EXPECT_LT(change(ReshapeMethod::slippage), 0.5);
   EXPECT_GT(change(ReshapeMethod::alup), 1);
@@ -44,7 +44,7 @@ TEST_P(Alup, ABoxMadeHigherKeepsItsNormalsLessThanSlippageDoes) {
 }
 
 /// The vertices of a unit box that lie on so many of its faces or more, scaled.
-Gesture scaled(const Mesh& mesh, int faces, const Eigen::Vector3d& scale) {
+Gesture scaled_end(const Mesh& mesh, int faces, const Eigen::Vector3d& scale) {
   Gesture gesture;
   for (int v = 0; v < mesh.positions.rows(); ++v) {
     const Eigen::Vector3d p = mesh.positions.row(v);
@@ -59,12 +59,12 @@ TEST_P(Alup, AndSlippageKeepTheNormalsOfABoxThatIsScaled) {
     const Mesh mesh = box({1, 1, 1}, cells);
     for (const ReshapeMethod method : {ReshapeMethod::slippage, ReshapeMethod::alup}) {
       const auto change = [&](const Gesture& gesture) {
-        return mean_normal_change(mesh, reshaped(mesh, gesture, method, GetParam()));
+        return mean_normal_change(mesh, reshaped_by(mesh, gesture, method, GetParam()));
       };
       for (const Eigen::Vector3d& scale : {Eigen::Vector3d(1, 1.6, 1), Eigen::Vector3d(0.6, 1, 1)}) {
-        EXPECT_LT(change(scaled(mesh, 2, scale)), 0.1) << to_string(method);
+        EXPECT_LT(change(scaled_end(mesh, 2, scale)), 0.1) << to_string(method);
       }
-      EXPECT_LT(change(scaled(mesh, 3, {1.6, 1.6, 1.6})), 0.1) << to_string(method);
+      EXPECT_LT(change(scaled_end(mesh, 3, {1.6, 1.6, 1.6})), 0.1) << to_string(method);
     }
   }
 }
@@ -78,7 +78,7 @@ TEST_P(Alup, ASphereGrowsAlike) {
   mesh.positions.col(1).maxCoeff(&high);
   gesture.add(static_cast<int>(low), 1.5 * mesh.positions.row(low).transpose());
   gesture.add(static_cast<int>(high), 1.5 * mesh.positions.row(high).transpose());
-  const Positions grown = reshaped(mesh, gesture, ReshapeMethod::alup, GetParam());
+  const Positions grown = reshaped_by(mesh, gesture, ReshapeMethod::alup, GetParam());
   const Comparison changes = compare(mesh.positions, grown, mesh.triangles);
   EXPECT_LT(changes.uneven.mean, 0.05);
   EXPECT_GT(changes.size.mean, std::log(1.3));
@@ -103,7 +103,7 @@ TEST(AlupAndSlippage, ACylinderMadeLongerGrowsWiderInTheFormer) {
   gesture.add(static_cast<int>(low), mesh.positions.row(low).transpose());
   gesture.add(static_cast<int>(high), mesh.positions.row(high).transpose() + Eigen::Vector3d(0, 1, 0));
   const auto width = [&](ReshapeMethod method) {
-    const Positions longer = reshaped(mesh, gesture, method, ReshapeSolver::steady);
+    const Positions longer = reshaped_by(mesh, gesture, method, ReshapeSolver::steady);
     return longer.col(0).maxCoeff() - longer.col(0).minCoeff();
   };
   EXPECT_GT(width(ReshapeMethod::alup), 1.2 * width(ReshapeMethod::slippage));

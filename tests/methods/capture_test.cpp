@@ -59,7 +59,7 @@ Positions seen(const SphereMap& map, const Positions& directions) { return on_sp
 
 /// Degrees, the largest between what the capture says of directions and what is expected.
 template <typename Expected>
-double farthest(const SphereMap& map, const Expected& expected) {
+double farthest_from(const SphereMap& map, const Expected& expected) {
   const Positions directions = sphere(1, 4).positions;
   const Positions normals = seen(map, directions);
   double most = 0;
@@ -87,13 +87,13 @@ void expect_refused(const Call& call, const std::string& words) {
 }
 
 TEST(NormalCapture, OfEachPointItselfIsTheIdentity) {
-  EXPECT_LT(farthest(normal_capture(globe(256), equirectangular), itself), 0.5);
-  EXPECT_LT(farthest(normal_capture(discs(256), hemispheres), itself), 1);
+  EXPECT_LT(farthest_from(normal_capture(globe(256), equirectangular), itself), 0.5);
+  EXPECT_LT(farthest_from(normal_capture(discs(256), hemispheres), itself), 1);
 }
 
 TEST(NormalCapture, FewPixelsDoToo) {
-  EXPECT_LT(farthest(normal_capture(globe(16), equirectangular), itself), 10);
-  EXPECT_LT(farthest(normal_capture(discs(16), hemispheres), itself), 10);
+  EXPECT_LT(farthest_from(normal_capture(globe(16), equirectangular), itself), 10);
+  EXPECT_LT(farthest_from(normal_capture(discs(16), hemispheres), itself), 10);
 }
 
 TEST(NormalCapture, HasItsAxesWhereTheLayoutSays) {
@@ -127,7 +127,7 @@ TEST(NormalCapture, SmallGapsAreFilledFromAround) {
     return result;
   };
   // 3 % of the sphere is a cap 20 degrees wide from its middle.
-  EXPECT_LT(farthest(normal_capture(hole(0.03), equirectangular), itself), 21);
+  EXPECT_LT(farthest_from(normal_capture(hole(0.03), equirectangular), itself), 21);
   expect_refused([&] { normal_capture(hole(0.2), equirectangular); }, "of the sphere has no normal, around (1, 0, 0)");
   expect_refused([&] { normal_capture(discs(64), equirectangular); }, "has no normal");
 }
@@ -155,7 +155,7 @@ TEST(NormalCapture, OfAMeshIsWhatItIsPaintedWith) {
   const Mesh ball = sphere(1, 4);
   const Mesh painted_ball = transformed(ball, 7, {30, -20, 10});
   const SphereMap map = normal_capture(painted_ball, 3 * ball.positions * turn.transpose());
-  EXPECT_LT(farthest(map, [&](const Vector3d& d) { return Vector3d(turn * d); }), 0.1);
+  EXPECT_LT(farthest_from(map, [&](const Vector3d& d) { return Vector3d(turn * d); }), 0.1);
 }
 
 /// A globe by latitude and longitude whose seam is open and whose poles have triangles without area.
@@ -180,11 +180,11 @@ Mesh open_globe(int rows) {
 
 TEST(NormalCapture, OfAMeshMayHaveAnOpenSeamAndAGap) {
   const Mesh globe = open_globe(32);
-  EXPECT_LT(farthest(normal_capture(globe, globe.positions), itself), 0.5);
+  EXPECT_LT(farthest_from(normal_capture(globe, globe.positions), itself), 0.5);
   Positions normals = globe.positions;
   normals.row(33 * 32 + 7).setConstant(std::nan(""));
   normals.row(33 * 32 + 9).setZero();
-  EXPECT_LT(farthest(normal_capture(globe, normals), itself), 6);
+  EXPECT_LT(farthest_from(normal_capture(globe, normals), itself), 6);
 }
 
 TEST(NormalCapture, OfAMeshThatIsNoSphereIsRefused) {

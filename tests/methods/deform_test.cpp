@@ -21,13 +21,11 @@ using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
-using enum DeformMethod;
 
 Positions moved(const Mesh& mesh, const Matrix3d& linear, const Vector3d& translation) {
   return (mesh.positions * linear.transpose()).rowwise() + translation.transpose();
 }
 
-const Matrix3d kTurn = AngleAxisd(1.1, Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
 const Vector3d kShift(0.7, -1.2, 0.4);
 
 /// To the end.
@@ -40,17 +38,12 @@ DeformOptions thorough(DeformMethod method) {
 }
 
 /// Largest distance from `expected` in diagonals at rest.
-double off(const Mesh& mesh, const Gesture& gesture, const DeformOptions& options, const Positions& expected) {
+double off_expected(const Mesh& mesh, const Gesture& gesture, const DeformOptions& options, const Positions& expected) {
   const DeformResult result = deform(mesh.positions, mesh.triangles, gesture, options);
   return (result.positions - expected).rowwise().norm().maxCoeff() / box_diagonal(mesh.positions);
 }
 
-struct Shape {
-  std::string name;
-  Mesh mesh;
-};
-
-std::vector<Shape> shapes() {
+std::vector<NamedMesh> meshes_to_deform() {
   const Mesh block = box({1, 2, 0.5}, 4);
   return {{"box", block},
           {"sheet", sheet(6)},
@@ -61,34 +54,39 @@ std::vector<Shape> shapes() {
           {"awkward", awkward()}};
 }
 
-class DeformShape : public testing::TestWithParam<Shape> {};
+class DeformShape : public testing::TestWithParam<NamedMesh> {};
 
 TEST_P(DeformShape, GoesWithARigidMotionOfItsHandles) {
   const Mesh& mesh = GetParam().mesh;
   const Gesture gesture = carried_by(mesh, kTurn, kShift);
-  for (const DeformMethod method : {arap, arap_volume, conformal}) {
-    EXPECT_LT(off(mesh, gesture, thorough(method), moved(mesh, kTurn, kShift)), 1e-6) << to_string(method);
+  for (const DeformMethod method : {DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
+    EXPECT_LT(off_expected(mesh, gesture, thorough(method), moved(mesh, kTurn, kShift)), 1e-6) << to_string(method);
   }
 }
 
 TEST_P(DeformShape, GoesWithASimilarityOfItsHandlesWhereItMayScale) {
   const Mesh& mesh = GetParam().mesh;
   const Matrix3d linear = 1.7 * kTurn;
-  EXPECT_LT(off(mesh, carried_by(mesh, linear, kShift), thorough(conformal), moved(mesh, linear, kShift)), 1e-6);
-  EXPECT_GT(off(mesh, carried_by(mesh, linear, kShift), thorough(arap), moved(mesh, linear, kShift)), 1e-2);
+  EXPECT_LT(off_expected(mesh, carried_by(mesh, linear, kShift), thorough(DeformMethod::conformal),
+                         moved(mesh, linear, kShift)),
+            1e-6);
+  EXPECT_GT(
+      off_expected(mesh, carried_by(mesh, linear, kShift), thorough(DeformMethod::arap), moved(mesh, linear, kShift)),
+      1e-2);
 }
 
 TEST_P(DeformShape, GoesWithATranslationOfOneHandle) {
   const Mesh& mesh = GetParam().mesh;
   Gesture gesture;
   gesture.add(5, mesh.positions.row(5).transpose() + kShift);
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
-    EXPECT_LT(off(mesh, gesture, thorough(method), moved(mesh, Matrix3d::Identity(), kShift)), 1e-9)
+  for (const DeformMethod method :
+       {DeformMethod::poisson, DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
+    EXPECT_LT(off_expected(mesh, gesture, thorough(method), moved(mesh, Matrix3d::Identity(), kShift)), 1e-9)
         << to_string(method);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Any, DeformShape, testing::ValuesIn(shapes()),
+INSTANTIATE_TEST_SUITE_P(Any, DeformShape, testing::ValuesIn(meshes_to_deform()),
                          [](const auto& instance) { return instance.param.name; });
 
 /// The paper's appendix B, by a dense matrix.
@@ -118,7 +116,7 @@ TEST(Deform, PoissonIsThePapersMinimum) {
   const Gesture gesture = move_top(mesh, {0.3, 0.5, -0.2});
   for (const double weight : {1e5, 10.0}) {
     DeformOptions options;
-    options.method = poisson;
+    options.method = DeformMethod::poisson;
     options.handle_weight = weight;
     const Positions result = deform(mesh.positions, mesh.triangles, gesture, options).positions;
     EXPECT_LT((result - dense_poisson(mesh, gesture, weight)).cwiseAbs().maxCoeff(), 1e-9);
@@ -155,9 +153,9 @@ double spokes_and_rims(const Mesh& rest, const Positions& positions, bool scales
 TEST(Deform, EndsWhereTheEnergyIsStationary) {
   const Mesh mesh = box({1, 0.7, 0.4}, 3);  // In the unit box already.
   const Gesture gesture = uneven(mesh, 0.1);
-  for (const DeformMethod method : {arap, conformal}) {
+  for (const DeformMethod method : {DeformMethod::arap, DeformMethod::conformal}) {
     const Positions end = deform(mesh.positions, mesh.triangles, gesture, thorough(method)).positions;
-    const auto energy = [&](const Positions& p) { return spokes_and_rims(mesh, p, method == conformal); };
+    const auto energy = [&](const Positions& p) { return spokes_and_rims(mesh, p, method == DeformMethod::conformal); };
     const double step = 1e-5, scale = energy(end);
     ASSERT_GT(scale, 1e-4);
     for (int v = 0; v < mesh.positions.rows(); v += 3) {
@@ -175,9 +173,9 @@ TEST(Deform, EndsWhereTheEnergyIsStationary) {
 TEST(Deform, TellsTheEnergyThatItMinimises) {
   const Mesh mesh = box({1, 0.7, 0.4}, 3);
   const Gesture gesture = uneven(mesh, 0.1);
-  for (const DeformMethod method : {arap, conformal}) {
+  for (const DeformMethod method : {DeformMethod::arap, DeformMethod::conformal}) {
     const DeformResult result = deform(mesh.positions, mesh.triangles, gesture, thorough(method));
-    EXPECT_NEAR(result.report.energy, spokes_and_rims(mesh, result.positions, method == conformal), 1e-8);
+    EXPECT_NEAR(result.report.energy, spokes_and_rims(mesh, result.positions, method == DeformMethod::conformal), 1e-8);
     EXPECT_EQ(result.report.energy_by_term.at("edges"), result.report.energy);
   }
 }
@@ -185,7 +183,7 @@ TEST(Deform, TellsTheEnergyThatItMinimises) {
 TEST(Deform, PlainPassesNeverRaiseTheEnergyAndAcceleratedOnesEndThere) {
   const Mesh mesh = cylinder(0.3, 1, 16, 8);
   const Gesture gesture = uneven(mesh, 0.1, 40);
-  for (const DeformMethod method : {arap, arap_volume, conformal}) {
+  for (const DeformMethod method : {DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
     DeformOptions options = thorough(method);
     const DeformResult accelerated = deform(mesh.positions, mesh.triangles, gesture, options);
     options.acceleration_window = 0;
@@ -210,7 +208,7 @@ TEST(Deform, AFillingKeepsVolume) {
     const DeformResult result = deform(mesh.positions, mesh.triangles, gesture, thorough(method));
     return volume({result.positions, mesh.triangles}) / volume(mesh);
   };
-  const double filled = kept(arap_volume), hollow = kept(arap);
+  const double filled = kept(DeformMethod::arap_volume), hollow = kept(DeformMethod::arap);
   EXPECT_GT(filled, 0.9);
   EXPECT_LT(hollow, filled - 0.05);
 }
@@ -219,8 +217,8 @@ TEST(Deform, AnOpenSheetHasNoFillingAndIsAShell) {
   const Mesh mesh = sheet(6);
   Gesture gesture = carried_by(mesh, Matrix3d::Identity(), Vector3d::Zero(), 20);
   gesture.targets.begin()->second += Vector3d(0, 0, 0.5);
-  const DeformResult shell = deform(mesh.positions, mesh.triangles, gesture, thorough(arap_volume));
-  EXPECT_LT(off(mesh, gesture, thorough(arap), shell.positions), 1e-7);
+  const DeformResult shell = deform(mesh.positions, mesh.triangles, gesture, thorough(DeformMethod::arap_volume));
+  EXPECT_LT(off_expected(mesh, gesture, thorough(DeformMethod::arap), shell.positions), 1e-7);
   EXPECT_THAT(shell.report.paths.at("filling"), HasSubstr("0 tetrahedra"));
 }
 

@@ -18,7 +18,6 @@ namespace swage::test {
 namespace {
 
 using testing::HasSubstr;
-using enum DeformMethod;
 
 TEST(DeformUse, MeetsItsHandlesExactlyOrAsSoftlyAsAsked) {
   const Mesh mesh = torus(1, 0.4, 24, 12);
@@ -27,7 +26,8 @@ TEST(DeformUse, MeetsItsHandlesExactlyOrAsSoftlyAsAsked) {
   const auto error = [&] {
     return handle_error(mesh, gesture, deform(mesh.positions, mesh.triangles, gesture, options).positions);
   };
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
+  for (const DeformMethod method :
+       {DeformMethod::poisson, DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
     options.method = method;
     options.handle_weight.reset();
     EXPECT_LT(error(), 1e-12) << to_string(method);
@@ -42,7 +42,8 @@ TEST(DeformUse, MeetsItsHandlesExactlyOrAsSoftlyAsAsked) {
 TEST(DeformUse, SolvesAgainWithOrWithoutAStart) {
   const Mesh mesh = cylinder(0.3, 1, 16, 8);
   const Gesture first = uneven(mesh, 0.1, 40), second = uneven(mesh, 0.102, 40);
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
+  for (const DeformMethod method :
+       {DeformMethod::poisson, DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
     DeformOptions options;
     options.method = method;
     options.movement = 1e-8;
@@ -57,7 +58,7 @@ TEST(DeformUse, SolvesAgainWithOrWithoutAStart) {
 /// At the default tolerance.
 TEST(DeformUse, DraggingOnTakesFewerPasses) {
   const Mesh mesh = cylinder(0.3, 1, 16, 8);
-  for (const DeformMethod method : {arap, arap_volume, conformal}) {
+  for (const DeformMethod method : {DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
     DeformOptions options;
     options.method = method;
     Deform plan(mesh.positions, mesh.triangles, options);
@@ -81,7 +82,8 @@ TEST(DeformUse, IsTheSameBytesOnOneThreadAndTwo) {
   const Mesh mesh = joined(torus(1, 0.4, 24, 12), transformed(box(), 1, {2, 0, 0}));
   const Gesture gesture = move_top(mesh, {0.4, 0.4, 0.2});
   const int threads = omp_get_max_threads();
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
+  for (const DeformMethod method :
+       {DeformMethod::poisson, DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
     DeformOptions options;
     options.method = method;
     omp_set_num_threads(1);
@@ -98,7 +100,7 @@ TEST(DeformUse, OnADeviceIsAsOnTheReference) {
   for (const Precision precision : {Precision::twice, Precision::single}) {
     const auto backend = opencl_or_skip(precision);
     if (!backend) return;
-    for (const DeformMethod method : {arap, arap_volume, conformal}) {
+    for (const DeformMethod method : {DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
       DeformOptions options;
       options.method = method;
       options.movement = 1e-6;
@@ -113,7 +115,8 @@ TEST(DeformUse, OnADeviceIsAsOnTheReference) {
 TEST(DeformUse, CanBeCancelled) {
   const Mesh mesh = torus(1, 0.4, 24, 12);
   const Gesture gesture = move_top(mesh, {0.4, 0.4, 0.2});
-  for (const DeformMethod method : {poisson, arap, arap_volume, conformal}) {
+  for (const DeformMethod method :
+       {DeformMethod::poisson, DeformMethod::arap, DeformMethod::arap_volume, DeformMethod::conformal}) {
     DeformOptions options;
     options.method = method;
     Deform plan(mesh.positions, mesh.triangles, options);
@@ -133,7 +136,7 @@ TEST(DeformUse, CanBeCancelled) {
 }
 
 template <class Call>
-std::string refusal(const Call& call) {
+std::string refusal_of(const Call& call) {
   try {
     call();
   } catch (const InvalidInput& error) {
@@ -148,7 +151,7 @@ TEST(DeformUse, RefusesWhatItCannotDo) {
   const auto with = [&](const auto& set) {
     DeformOptions options;
     set(options);
-    return refusal([&] { Deform(mesh.positions, mesh.triangles, options); });
+    return refusal_of([&] { Deform(mesh.positions, mesh.triangles, options); });
   };
   EXPECT_THAT(with([](auto& o) { o.handle_weight = 0; }), HasSubstr("handle_weight"));
   EXPECT_THAT(with([](auto& o) { o.handle_weight = std::nan(""); }), HasSubstr("handle_weight"));
@@ -159,13 +162,13 @@ TEST(DeformUse, RefusesWhatItCannotDo) {
   Mesh flat = mesh;
   flat.positions.col(0).setZero();
   flat.positions.col(2).setZero();
-  EXPECT_THAT(refusal([&] { Deform(flat.positions, flat.triangles); }), HasSubstr("Deform: triangles: none"));
+  EXPECT_THAT(refusal_of([&] { Deform(flat.positions, flat.triangles); }), HasSubstr("Deform: triangles: none"));
   Deform plan(mesh.positions, mesh.triangles);
-  EXPECT_THAT(refusal([&] { plan.solve({}); }), HasSubstr("handle"));
-  EXPECT_THAT(refusal([&] { plan.solve(gesture, DeformResult{Positions::Zero(3, 3), {}}); }), HasSubstr("3 rows"));
+  EXPECT_THAT(refusal_of([&] { plan.solve({}); }), HasSubstr("handle"));
+  EXPECT_THAT(refusal_of([&] { plan.solve(gesture, DeformResult{Positions::Zero(3, 3), {}}); }), HasSubstr("3 rows"));
   DeformResult start{mesh.positions, {}};
   start.positions(1, 1) = std::nan("");
-  EXPECT_THAT(refusal([&] { plan.solve(gesture, start); }), HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([&] { plan.solve(gesture, start); }), HasSubstr("not finite"));
 }
 
 }  // namespace

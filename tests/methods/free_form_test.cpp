@@ -24,7 +24,7 @@ Positions scattered(int count) {
 }
 
 /// Along x at the first third of the points, along y at the next, along z at the last.
-Positions along_axes(Index count) {
+Positions line_values(Index count) {
   Positions directions = Positions::Zero(count, 3);
   for (Index v = 0; v < count; ++v) directions(v, 3 * v / count) = 1;
   return directions;
@@ -49,7 +49,7 @@ TEST(FreeForm, HasTheMapsOfItsDisplacements) {
   std::normal_distribution<double> part;
   VectorXd amounts(points.rows());
   for (double& amount : amounts) amount = part(random);
-  const Positions control = fitted(form, along_axes(points.rows()), amounts);
+  const Positions control = fitted(form, line_values(points.rows()), amounts);
   const Positions moved = form.displacements(control);
   const Transforms maps = form.maps(control);
   for (int v = 0; v < kCount; ++v) {
@@ -76,7 +76,7 @@ TEST(FreeForm, StretchesEvenlyWhatIsNotTold) {
 /// As a couch made longer: its arms are as wide as before, and that ends at once.
 TEST(FreeForm, LeavesWidthsAtOnce) {
   const Positions points = scattered(6000);
-  const Positions directions = along_axes(points.rows());
+  const Positions directions = line_values(points.rows());
   const auto shift = [](double x) { return x < 0.12 ? 0 : x > 0.88 ? 0.076 : 0.1 * (x - 0.12); };
   VectorXd amounts(points.rows());
   for (Index v = 0; v < points.rows(); ++v) amounts[v] = directions(v, 0) * shift(points(v, 0));
@@ -106,7 +106,7 @@ TEST(FreeForm, IsTheSameOnAnyNumberOfThreads) {
   const Positions points = scattered(2000);
   const FreeForm form(points);
   const auto moved = [&] {
-    return form.displacements(fitted(form, along_axes(points.rows()), points.col(1), {points}));
+    return form.displacements(fitted(form, line_values(points.rows()), points.col(1), {points}));
   };
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);

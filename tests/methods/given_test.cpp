@@ -12,12 +12,12 @@ namespace swage {
 namespace {
 
 /// A box with a straight edge, uneven curvatures and a start, all of which have to be put in order with it.
-struct Problem {
+struct GivenProblem {
   Mesh mesh = test::box({1, 2, 0.5}, 6);
   ReshapeOptions options;
   Gesture gesture = test::move_top(mesh, {0.2, 0.6, 0.1});
 
-  Problem() {
+  GivenProblem() {
     options.unit_box_curvatures = Curvatures::NullaryExpr(
         mesh.triangles.rows(), 2, [](Eigen::Index t, Eigen::Index) { return 0.01 * double(t % 7); });
     std::vector<int> chain;  // Along the y axis.
@@ -44,7 +44,7 @@ struct Ordered {
 };
 
 TEST(GivenInOrder, IsTheSameProblem) {
-  const Problem problem;
+  const GivenProblem problem;
   const Ordered ordered(problem.mesh);
   const Given& order = ordered.given;
   const Mesh& other = ordered.surface.mesh;
@@ -66,7 +66,7 @@ TEST(GivenInOrder, IsTheSameProblem) {
 }
 
 TEST(GivenInOrder, ComesBackAsItWent) {
-  const Problem problem;
+  const GivenProblem problem;
   const Ordered ordered(problem.mesh);
   const Given& order = ordered.given;
   ReshapeResult result;

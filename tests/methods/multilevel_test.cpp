@@ -22,7 +22,7 @@ Eigen::VectorXd waves(Eigen::Index size) {
 }
 
 /// As the header's sum reads.
-Eigen::VectorXd product(const ElementGraph& graph, const Eigen::VectorXd& x) {
+Eigen::VectorXd product_with(const ElementGraph& graph, const Eigen::VectorXd& x) {
   const int width = 3 * graph.rows;
   Eigen::VectorXd result(x.size());
   for (Eigen::Index t = 0; t < graph.own.rows(); ++t) {
@@ -73,7 +73,7 @@ TEST(ElementGraphs, OfTheTransformStepIsItsMatrix) {
   for (const double curvature : {0.0, 2.0}) {  // Without sphericity and with.
     const TransformStep::Rest rest = steady_rest(test::torus(), curvature);
     const Eigen::VectorXd x = waves(9 * rest.triangles.rows()), expected = transform_system(rest).times(x);
-    EXPECT_LT((product(transform_graph(rest), x) - expected).norm(), 1e-6 * expected.norm());
+    EXPECT_LT((product_with(transform_graph(rest), x) - expected).norm(), 1e-6 * expected.norm());
   }
 }
 
@@ -84,7 +84,8 @@ TEST(ElementGraphs, OfTheVertexStepIsItsMatrixButForAnUpperBoundOnSphericity) {
     VertexSystem vertices = vertex_system(rest, {}, FactorKind::none);
     assemble(vertices, rest, pull.quadratics, {}, pull.holds);
     const ElementGraph graph = vertex_graph(rest, pull.quadratics, {}, pull.holds);
-    const Eigen::VectorXd x = waves(rest.vertices.size()), exact = vertices.system.times(x), bound = product(graph, x);
+    const Eigen::VectorXd x = waves(rest.vertices.size()), exact = vertices.system.times(x),
+                          bound = product_with(graph, x);
     if (curvature == 0) {
       EXPECT_LT((bound - exact).norm(), 1e-6 * exact.norm());
     }
@@ -102,8 +103,8 @@ Eigen::VectorXd solved(const Multilevel& multilevel, const Eigen::VectorXd& side
 double left_by(const ElementGraph& graph, double tolerance) {
   const Multilevel multilevel(graph);
   const Eigen::VectorXd solution = waves(graph.own.rows() * 3 * graph.rows);
-  const Eigen::VectorXd error = solved(multilevel, product(graph, solution), tolerance) - solution;
-  return std::sqrt(error.dot(product(graph, error)) / solution.dot(product(graph, solution)));
+  const Eigen::VectorXd error = solved(multilevel, product_with(graph, solution), tolerance) - solution;
+  return std::sqrt(error.dot(product_with(graph, error)) / solution.dot(product_with(graph, solution)));
 }
 
 TEST(Multilevel, SolvesToTheTolerance) {
@@ -127,10 +128,10 @@ TEST(Multilevel, IterationsHardlyGrowWithTheMesh) {
   for (const int subdivisions : {4, 6}) {  // 16 times as many.
     const TransformStep::Rest rest = steady_rest(test::sphere(0.5, subdivisions), 2);
     const ElementGraph graph = transform_graph(rest);
-    const Eigen::VectorXd side = product(graph, waves(9 * rest.triangles.rows()));
+    const Eigen::VectorXd side = product_with(graph, waves(9 * rest.triangles.rows()));
     Eigen::VectorXd solution = Eigen::VectorXd::Zero(side.size());
     const Gradients done = Multilevel(graph).improve(
-        [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = product(graph, x); }, side, 1e-4, 100, solution);
+        [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = product_with(graph, x); }, side, 1e-4, 100, solution);
     EXPECT_TRUE(done.converged);
     iterations.push_back(done.iterations);
   }

@@ -18,9 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const Eigen::Matrix3d kTurn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
-
-StylizeResult boxes(const Mesh& mesh, const PolycubeOptions& options = {}, const Gesture& handles = {}) {
+StylizeResult boxed(const Mesh& mesh, const PolycubeOptions& options = {}, const Gesture& handles = {}) {
   return polycube(mesh.positions, mesh.triangles, cube_normals(), options, handles);
 }
 
@@ -38,13 +36,13 @@ Mesh saddle() {
   return mesh;
 }
 
-struct Shape {
+struct Boxed {
   std::string name;
   Mesh mesh;
   double within_5;  // Share of the area, of degrees from a normal; measured, less a hundredth or two.
 };
 
-std::vector<Shape> shapes() {
+std::vector<Boxed> meshes_to_box() {
   return {{"sphere", askew(sphere(1, 4)), 0.985},
           {"torus", askew(torus(1, 0.4, 48, 24)), 0.95},
           {"bumpy", askew(bumpy_sphere(0.05)), 0.96},
@@ -53,11 +51,11 @@ std::vector<Shape> shapes() {
           {"apart", askew(joined(sphere(1, 3), transformed(torus(1, 0.4, 30, 15), 0.7, {3, 0, 0}))), 0.95}};
 }
 
-class PolycubeShape : public testing::TestWithParam<Shape> {};
+class PolycubeShape : public testing::TestWithParam<Boxed> {};
 
 TEST_P(PolycubeShape, TurnsNearlyAllOfItsSurfaceToTheNormals) {
   const auto& [name, mesh, within_5] = GetParam();
-  const StylizeResult result = boxes(mesh);
+  const StylizeResult result = boxed(mesh);
   const Positions normals = cube_normals().normals;
   EXPECT_GT(share_near(mesh, result.positions, normals, 5), within_5);
   EXPECT_LT(mean_angle(mesh, result.positions, normals), 0.1 * mean_angle(mesh, mesh.positions, normals));
@@ -66,13 +64,13 @@ TEST_P(PolycubeShape, TurnsNearlyAllOfItsSurfaceToTheNormals) {
 
 TEST_P(PolycubeShape, KeepsItsTriangles) {
   const Mesh& mesh = GetParam().mesh;
-  const StylizeResult result = boxes(mesh);
+  const StylizeResult result = boxed(mesh);
   EXPECT_EQ(turned_over(mesh, result.positions), 0);
   EXPECT_GT(least_angle(mesh, result.positions), 1.9);
 }
 
 TEST_P(PolycubeShape, LowersItsEnergyUntilItStops) {
-  const Report report = boxes(GetParam().mesh).report;
+  const Report report = boxed(GetParam().mesh).report;
   for (size_t i = 1; i + 1 < report.energies.size(); ++i) EXPECT_LT(report.energies[i], report.energies[i - 1]);
   EXPECT_EQ(report.energy, report.energies[static_cast<size_t>(report.best_pass)]);
   EXPECT_THAT(report.stop, testing::AnyOf(Termination::energy_settled, Termination::energy_rose));
@@ -85,12 +83,12 @@ TEST_P(PolycubeShape, GoesWithMotionsOfItselfAndItsStyle) {
   };
   ClosestNormals turned = cube_normals();
   turned.normals *= kTurn.transpose();
-  const Positions here = boxes(mesh, passes(3)).positions;
+  const Positions here = boxed(mesh, passes(3)).positions;
   const Positions there = polycube(moved(mesh.positions), mesh.triangles, turned, passes(3)).positions;
   EXPECT_LT(far_apart(moved(here), there), 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Any, PolycubeShape, testing::ValuesIn(shapes()),
+INSTANTIATE_TEST_SUITE_P(Any, PolycubeShape, testing::ValuesIn(meshes_to_box()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(Polycube, DissolvesDetailsThatStylizingKeeps) {
@@ -99,13 +97,13 @@ TEST(Polycube, DissolvesDetailsThatStylizingKeeps) {
   options.energy = StylizeEnergy::farap;
   const Positions normals = cube_normals().normals;
   const Positions kept = stylize(mesh.positions, mesh.triangles, cube_normals(), 10, options).positions;
-  const Positions dissolved = boxes(mesh).positions;
+  const Positions dissolved = boxed(mesh).positions;
   EXPECT_LT(mean_angle(mesh, dissolved, normals), 0.3 * mean_angle(mesh, kept, normals));
 }
 
 TEST(Polycube, LeavesABoxABox) {
   const Mesh mesh = box({1, 2, 0.5}, 6);
-  EXPECT_LT(far_apart(mesh.positions, boxes(mesh).positions), 1e-12);
+  EXPECT_LT(far_apart(mesh.positions, boxed(mesh).positions), 1e-12);
 }
 
 TEST(Polycube, MakesAHexagonalPrismOfACylinder) {
@@ -120,7 +118,7 @@ TEST(Polycube, MakesAHexagonalPrismOfACylinder) {
 
 TEST(Polycube, KeepsThePlaceAndSizeOfEachComponent) {
   const Mesh one = askew(sphere(1, 3)), other = transformed(askew(torus(1, 0.4, 30, 15)), 0.5, {3, 1, 0});
-  const Positions result = boxes(joined(one, other)).positions;
+  const Positions result = boxed(joined(one, other)).positions;
   const auto place_and_size = [](const Mesh& mesh, const Positions& positions) {
     StylizeOptions options;
     const auto plan = plan_of({mesh.positions, mesh.triangles}, options);
@@ -145,7 +143,7 @@ TEST(Polycube, MeetsItsHandles) {
     if (at[1] < -0.95) handles.add(v, at);
     if (at[1] > 0.95) handles.add(v, at + Eigen::Vector3d(0, 0.8, 0));
   }
-  const StylizeResult result = boxes(mesh, {}, handles);
+  const StylizeResult result = boxed(mesh, {}, handles);
   for (const auto& [vertex, target] : handles.targets) {
     EXPECT_LT((result.positions.row(vertex).transpose() - target).norm(), 1e-12);
   }
@@ -154,7 +152,7 @@ TEST(Polycube, MeetsItsHandles) {
 
 TEST(Polycube, TakesAnyListOfTriangles) {
   for (const Mesh& mesh : {awkward(), joined(sphere(1, 2), awkward())}) {
-    const StylizeResult result = boxes(mesh);
+    const StylizeResult result = boxed(mesh);
     EXPECT_EQ(result.positions.rows(), mesh.positions.rows());
     EXPECT_TRUE(result.positions.allFinite());
     EXPECT_FALSE(result.report.warnings.empty());
@@ -179,9 +177,9 @@ TEST(Polycube, IsTheSameBytesOnOneThreadAndTwo) {
   const Mesh mesh = askew(torus(1, 0.4, 48, 24));
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  const Positions one = boxes(mesh, passes(4)).positions;
+  const Positions one = boxed(mesh, passes(4)).positions;
   omp_set_num_threads(2);
-  EXPECT_EQ(one, boxes(mesh, passes(4)).positions);
+  EXPECT_EQ(one, boxed(mesh, passes(4)).positions);
   omp_set_num_threads(threads);
 }
 
@@ -210,7 +208,7 @@ TEST(Polycube, RefusesWhatItCannotTake) {
   refused({}, ClosestNormals{Positions::Zero(2, 3)}, "row 0 has no direction");
   Gesture handles;
   handles.add(42, {0, 0, 0});
-  EXPECT_THROW(boxes(mesh, {}, handles), InvalidInput);
+  EXPECT_THROW(boxed(mesh, {}, handles), InvalidInput);
 }
 
 }  // namespace

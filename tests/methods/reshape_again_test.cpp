@@ -123,7 +123,7 @@ Drag dragged(Reshape& reshape, const Mesh& mesh, const Eigen::Vector3d& by, bool
 }
 
 /// In mean edge lengths.
-double apart(const ReshapeResult& a, const ReshapeResult& b, const Mesh& mesh) {
+double apart_after(const ReshapeResult& a, const ReshapeResult& b, const Mesh& mesh) {
   return (a.unfinished - b.unfinished).rowwise().norm().maxCoeff() / mean_edge_length(mesh.positions, mesh.triangles);
 }
 
@@ -135,7 +135,7 @@ TEST(ReshapeFromAResult, ADragEndsWhereTheGestureDoesInFewerPasses) {
     EXPECT_EQ(warm.last.report.stop, Termination::moved_little);
     // One more pass would move each of them by less than 1e-3, and plain passes come nearer the fixed point by a tenth
     // or more of what is left (steady.md): each is within 1e-3 / 0.1 of it.
-    EXPECT_LT(apart(warm.last, cold.last, mesh), 0.02);
+    EXPECT_LT(apart_after(warm.last, cold.last, mesh), 0.02);
     EXPECT_LT(warm.passes, cold.passes);
   }
 }
@@ -146,7 +146,7 @@ TEST(ReshapeFromAResult, StaysWhereItIs) {
   Reshape prepared(mesh.positions, mesh.triangles);
   const ReshapeResult result = prepared.solve(gesture), again = prepared.solve(gesture, result);
   EXPECT_EQ(again.report.passes, 2);  // The stop's tests need as many.
-  EXPECT_LT(apart(result, again, mesh), 2e-3);
+  EXPECT_LT(apart_after(result, again, mesh), 2e-3);
   EXPECT_EQ(prepared.solve(gesture, result).positions, again.positions) << "the same bytes";
   EXPECT_EQ(prepared.solve(gesture).positions, result.positions) << "nothing of it remains";
 }
@@ -179,12 +179,12 @@ TEST(ReshapeFromAResult, ACancelledSolveStaysAtTheStart) {
     const ReshapeResult cancelled =
         reshape->solve(test::move_top(mesh, {0.2, 0.4, 0}), start, [](const Progress&) { return false; });
     EXPECT_EQ(cancelled.report.stop, Termination::cancelled);
-    EXPECT_LT(apart(cancelled, start, mesh), 1e-12);
+    EXPECT_LT(apart_after(cancelled, start, mesh), 1e-12);
     EXPECT_EQ(cancelled.transforms, start.transforms);
   }
 }
 
-std::string refusal(Reshape& reshape, const Gesture& gesture, const ReshapeResult& start) {
+std::string refusal_of_start(Reshape& reshape, const Gesture& gesture, const ReshapeResult& start) {
   try {
     reshape.solve(gesture, start);
   } catch (const InvalidInput& error) {
@@ -198,28 +198,30 @@ TEST(ReshapeFromAResult, RefusesOneOfAnotherMeshOrSolver) {
   const Gesture gesture = test::move_top(mesh, {0, 0.2, 0});
   Reshape prepared(mesh.positions, mesh.triangles);
   const ReshapeResult good = prepared.solve(gesture);
-  EXPECT_EQ(refusal(prepared, gesture, good), "accepted");
+  EXPECT_EQ(refusal_of_start(prepared, gesture, good), "accepted");
   EXPECT_THROW(prepared.solve({}, good), InvalidInput);
 
   ReshapeResult start = good;
   start.unfinished.conservativeResize(5, 3);
-  EXPECT_NE(refusal(prepared, gesture, start).find("start.unfinished: 5 rows, but the mesh has 56 vertices"),
+  EXPECT_NE(refusal_of_start(prepared, gesture, start).find("start.unfinished: 5 rows, but the mesh has 56 vertices"),
             std::string::npos)
-      << refusal(prepared, gesture, start);
+      << refusal_of_start(prepared, gesture, start);
   start = good;
   start.transforms.resize(0, 9);
-  EXPECT_NE(refusal(prepared, gesture, start).find("start.transforms: 0 rows"), std::string::npos);
+  EXPECT_NE(refusal_of_start(prepared, gesture, start).find("start.transforms: 0 rows"), std::string::npos);
   start = good;
   start.unfinished(3, 1) = std::numeric_limits<double>::infinity();
-  EXPECT_NE(refusal(prepared, gesture, start).find("start.unfinished: row 3 is not finite"), std::string::npos);
+  EXPECT_NE(refusal_of_start(prepared, gesture, start).find("start.unfinished: row 3 is not finite"),
+            std::string::npos);
   start = good;
   start.transforms(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusal(prepared, gesture, start).find("start.transforms: row 3 is not finite"), std::string::npos);
+  EXPECT_NE(refusal_of_start(prepared, gesture, start).find("start.transforms: row 3 is not finite"),
+            std::string::npos);
 
   ReshapeOptions options;
   options.solver = ReshapeSolver::published;
   Reshape published(mesh.positions, mesh.triangles, options);
-  EXPECT_NE(refusal(published, gesture, good).find("published"), std::string::npos);
+  EXPECT_NE(refusal_of_start(published, gesture, good).find("published"), std::string::npos);
 }
 
 }  // namespace

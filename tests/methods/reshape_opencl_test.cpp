@@ -8,12 +8,7 @@
 namespace swage {
 namespace {
 
-struct Shape {
-  std::string name;
-  Mesh mesh;
-};
-
-std::vector<Shape> shapes() {
+std::vector<test::NamedMesh> meshes_to_reshape() {
   return {{"cylinder", test::cylinder(0.5, 1, 24, 8)},
           {"box", test::box({1, 2, 1}, 5)},
           {"torus", test::torus(1, 0.4, 24, 12)},
@@ -23,7 +18,7 @@ std::vector<Shape> shapes() {
 }
 
 /// The lowest vertex held, the highest lifted by a quarter of the diagonal, somewhat aslant.
-Gesture lift(const Mesh& mesh) {
+Gesture lift_highest(const Mesh& mesh) {
   Eigen::Index low = 0, high = 0;
   mesh.positions.col(1).minCoeff(&low);
   mesh.positions.col(1).maxCoeff(&high);
@@ -34,18 +29,19 @@ Gesture lift(const Mesh& mesh) {
   return gesture;
 }
 
-ReshapeResult reshaped(const Mesh& mesh, std::shared_ptr<Backend> backend,
-                       ReshapeSolver solver = ReshapeSolver::steady) {
+ReshapeResult reshaped_on(const Mesh& mesh, std::shared_ptr<Backend> backend,
+                          ReshapeSolver solver = ReshapeSolver::steady) {
   ReshapeOptions options;
   options.solver = solver;
   options.backend = std::move(backend);
-  return reshape(mesh.positions, mesh.triangles, lift(mesh), options);
+  return reshape(mesh.positions, mesh.triangles, lift_highest(mesh), options);
 }
 
 void expect_the_references(const std::shared_ptr<Backend>& backend, ReshapeSolver solver, double tolerance) {
-  for (const auto& [name, mesh] : shapes()) {
+  for (const auto& [name, mesh] : meshes_to_reshape()) {
     SCOPED_TRACE(name);
-    const ReshapeResult expected = reshaped(mesh, cpu_backend(), solver), result = reshaped(mesh, backend, solver);
+    const ReshapeResult expected = reshaped_on(mesh, cpu_backend(), solver),
+                        result = reshaped_on(mesh, backend, solver);
     EXPECT_EQ(result.report.stop, expected.report.stop);
     EXPECT_EQ(result.report.passes, expected.report.passes);
     EXPECT_EQ(result.finalised, expected.finalised);
@@ -75,7 +71,7 @@ TEST(ReshapeOnADevice, GivesTheSameBytesFromRunToRun) {
   const auto backend = test::opencl_or_skip(Precision::single);
   if (!backend) return;
   const Mesh mesh = test::cylinder(0.5, 1, 24, 8);
-  EXPECT_EQ(reshaped(mesh, backend).positions, reshaped(mesh, backend).positions);
+  EXPECT_EQ(reshaped_on(mesh, backend).positions, reshaped_on(mesh, backend).positions);
 }
 
 TEST(ReshapeOnADevice, AFlatteningGestureStaysFinite) {

@@ -124,13 +124,13 @@ Index expect_least(const Squares& squares, const MatrixXd& constraints, const Ma
   return held;
 }
 
-struct Case {
+struct ExactCase {
   GridShape shape;
   CellMap map;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> result;
+std::vector<ExactCase> cases() {
+  std::vector<ExactCase> result;
   for (const GridShape& shape : {unit_cells(4, 3, 5), unit_cells(6, 6, 6)}) {
     for (const CellMap& map : {random_map(shape, 1), checkered_map(shape), one_cell_map(shape), ball_map(shape, 0.4)}) {
       result.push_back({shape, map});

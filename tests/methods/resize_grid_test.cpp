@@ -197,7 +197,7 @@ TEST(ResizeGrid, ScalesABoxPlainly) {
 }
 
 /// How much the longest of a ball's extents exceeds the shortest.
-double out_of_round(const GridShape& shape, const AxisValues& vertices, double radius) {
+double ring_out_of_round(const GridShape& shape, const AxisValues& vertices, double radius) {
   const Eigen::RowVector3d centre = shape.corner + 0.5 * shape.size;
   Positions ends(6, 3);
   for (int u = 0; u < 3; ++u) {
@@ -215,7 +215,7 @@ TEST(ResizeGrid, KeepsABallRound) {
   const double radius = 0.25;
   for (const Factors& factors : {Factors(2, 1, 1), Factors(1, 2, 1), Factors(1, 0.5, 1)}) {
     const Resized result = resized(shape, ball_map(shape, radius), factors);
-    EXPECT_LT(out_of_round(shape, result.grid.positions, radius * 24), 0.05) << factors;
+    EXPECT_LT(ring_out_of_round(shape, result.grid.positions, radius * 24), 0.05) << factors;
   }
 }
 
@@ -224,7 +224,7 @@ TEST(ResizeGrid, KeepsTheSizeOfABallWhereAsked) {
   const double radius = 0.2;
   const auto ball_size = [&](double size_weight) {
     const AxisValues vertices = resized(shape, ball_map(shape, radius), {2, 1, 1}, 1e-6, size_weight).grid.positions;
-    EXPECT_LT(out_of_round(shape, vertices, radius * 24), 0.05);
+    EXPECT_LT(ring_out_of_round(shape, vertices, radius * 24), 0.05);
     Positions ends(2, 3);
     ends << 20 - radius * 24, 12, 12, 20 + radius * 24, 12, 12;
     const Positions moved = carry(shape, vertices, ends);
@@ -284,7 +284,7 @@ TEST(ResizeGrid, EndsWhereItIsCancelled) {
   EXPECT_THROW(Assembly(shape, map).place(scales.values, {2, 1, 1}, {}, poll), Cancelled);
 }
 
-void expect_refused(const std::function<void()>& call, const std::string& with) {
+void expect_call_refused(const std::function<void()>& call, const std::string& with) {
   try {
     call();
     ADD_FAILURE() << "not refused: " << with;
@@ -300,8 +300,8 @@ TEST(ResizeGrid, RefusesWhatItCannotTake) {
     GridShape bad_shape = shape;
     CellMap bad = good;
     spoil(bad_shape, bad);
-    expect_refused([&] { ScaleSolve solve(bad_shape, bad); }, with);
-    expect_refused([&] { Assembly assembly(bad_shape, bad); }, with);
+    expect_call_refused([&] { ScaleSolve solve(bad_shape, bad); }, with);
+    expect_call_refused([&] { Assembly assembly(bad_shape, bad); }, with);
   };
   refused("map.theta: nan in cell 7 along y is not in [0, 1]", [](GridShape&, CellMap& map) { map.theta(7, 1) = NAN; });
   refused("map.theta: 1.001 in cell 0 along z is not in [0, 1]",
@@ -319,16 +319,16 @@ TEST(ResizeGrid, RefusesWhatItCannotTake) {
   const Assembly assembly(shape, good);
   const AxisValues ones = AxisValues::Ones(60, 3);
   for (const double bad : {0.0, -1.0, double{INFINITY}, double{NAN}}) {
-    expect_refused([&] { solve.solve({1, bad, 1}); }, " along y is not in [1e-6, 1e6]");
-    expect_refused([&] { assembly.place(ones, {1, 1, bad}); }, " along z is not in [1e-6, 1e6]");
+    expect_call_refused([&] { solve.solve({1, bad, 1}); }, " along y is not in [1e-6, 1e6]");
+    expect_call_refused([&] { assembly.place(ones, {1, 1, bad}); }, " along z is not in [1e-6, 1e6]");
   }
-  expect_refused([&] { solve.solve({1, 1, 1}, {-1, 1e-6}); }, "options.size_weight");
-  expect_refused([&] { solve.solve({1, 1, 1}, {0, 0}); }, "options.tolerance");
-  expect_refused([&] { assembly.place(ones, {1, 1, 1}, {1}); }, "options.tolerance");
-  expect_refused([&] { assembly.place(ones.topRows(59), {1, 1, 1}); }, "scales: 59 rows, but there are 60 cells");
-  expect_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: row 0 is not finite");
-  expect_refused([&] { carry(shape, ones, ones); }, "carry: vertices");
-  expect_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: row 0 is not finite");
+  expect_call_refused([&] { solve.solve({1, 1, 1}, {-1, 1e-6}); }, "options.size_weight");
+  expect_call_refused([&] { solve.solve({1, 1, 1}, {0, 0}); }, "options.tolerance");
+  expect_call_refused([&] { assembly.place(ones, {1, 1, 1}, {1}); }, "options.tolerance");
+  expect_call_refused([&] { assembly.place(ones.topRows(59), {1, 1, 1}); }, "scales: 59 rows, but there are 60 cells");
+  expect_call_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: row 0 is not finite");
+  expect_call_refused([&] { carry(shape, ones, ones); }, "carry: vertices");
+  expect_call_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: row 0 is not finite");
 }
 
 }  // namespace

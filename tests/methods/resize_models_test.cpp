@@ -16,7 +16,7 @@ Positions resized(const Assembled& model, const ResizeTarget& target, const Resi
   return resize(model.mesh.positions, model.mesh.triangles, target, options).positions;
 }
 
-Positions scaled(const Assembled& model, const ResizeTarget& target) {
+Positions plainly_scaled(const Assembled& model, const ResizeTarget& target) {
   return model.mesh.positions * target.factors.asDiagonal();
 }
 
@@ -38,7 +38,7 @@ TEST(ResizeModels, WheelsOfACarStayRound) {
       joined_rims(joined_rims(rims_of(model, "tyre", 2), rims_of(model, "rim", 2)), rims_of(model, "cap", 2));
   ASSERT_EQ(wheels.size(), 12U);
   EXPECT_NEAR(most_oval(model.mesh.positions, wheels), 0, 1e-12);
-  EXPECT_NEAR(most_oval(scaled(model, by(2, 1, 1)), wheels), 1, 1e-12);
+  EXPECT_NEAR(most_oval(plainly_scaled(model, by(2, 1, 1)), wheels), 1, 1e-12);
   EXPECT_LT(most_oval(resized(model, by(2, 1, 1)), wheels), 0.05);
   EXPECT_LT(most_oval(resized(model, by(1, 2, 1)), wheels), 0.05);
 }
@@ -48,7 +48,7 @@ TEST(ResizeModels, TheDialOfAClockStaysRound) {
   const std::vector<Rim> dial =
       joined_rims(joined_rims(rims_of(model, "dial", 2), rims_of(model, "bezel", 2)), rims_of(model, "inner ring", 2));
   ASSERT_EQ(dial.size(), 3U);
-  EXPECT_NEAR(most_oval(scaled(model, by(2, 1, 1)), dial), 1, 1e-12);
+  EXPECT_NEAR(most_oval(plainly_scaled(model, by(2, 1, 1)), dial), 1, 1e-12);
   EXPECT_LT(most_oval(resized(model, by(2, 1, 1)), dial), 0.05);
   EXPECT_LT(most_oval(resized(model, by(1, 2, 1)), dial), 0.05);
 }
@@ -59,11 +59,11 @@ TEST(ResizeModels, HatchesAndCapsOfATankStayRound) {
   const std::vector<Part> caps = model.named("cap");
   ASSERT_EQ(hatches.size(), 8U);
   ASSERT_EQ(caps.size(), 2U);
-  EXPECT_NEAR(most_oval(scaled(model, by(2, 1, 1)), hatches), 1, 1e-12);
+  EXPECT_NEAR(most_oval(plainly_scaled(model, by(2, 1, 1)), hatches), 1, 1e-12);
   const Positions result = resized(model, by(2, 1, 1));
   EXPECT_LT(most_oval(result, hatches), 0.05);
   for (const Part& cap : caps) {
-    EXPECT_NEAR(uneven(model, cap, scaled(model, by(2, 1, 1))), 1, 1e-12);
+    EXPECT_NEAR(uneven(model, cap, plainly_scaled(model, by(2, 1, 1))), 1, 1e-12);
     EXPECT_LT(uneven(model, cap, result), 0.05);
   }
 }
@@ -103,7 +103,7 @@ TEST(ResizeModels, BoxesAreScaledPlainly) {
   for (const Factors& factors : {Factors(2, 1, 1), Factors(1, 0.5, 1), Factors(0.3, 1, 3)}) {
     ResizeTarget target;
     target.factors = factors;
-    const Positions due = scaled(model, target);
+    const Positions due = plainly_scaled(model, target);
     EXPECT_LT((resized(model, target) - due).cwiseAbs().maxCoeff(), 1e-4 * extents(due).norm()) << factors;
   }
 }

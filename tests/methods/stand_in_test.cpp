@@ -22,7 +22,7 @@ ReshapeOptions with_remesh(When when) {
   return options;
 }
 
-ReshapeResult reshaped(const Mesh& mesh, const Gesture& gesture, const ReshapeOptions& options) {
+ReshapeResult reshaped_near(const Mesh& mesh, const Gesture& gesture, const ReshapeOptions& options) {
   return reshape(mesh.positions, mesh.triangles, gesture, options);
 }
 
@@ -38,15 +38,15 @@ class StandInFor : public testing::Test {
 TEST_F(StandInFor, AWellShapedMeshAgreesWithTheMeshItself) {
   const Mesh mesh = test::cylinder(0.5, 1, 32, 10);
   const Gesture gesture = test::move_top(mesh, {0, 0.3, 0});
-  const ReshapeResult direct = reshaped(mesh, gesture, {});
-  const ReshapeResult carried = reshaped(mesh, gesture, with_remesh(When::always));
+  const ReshapeResult direct = reshaped_near(mesh, gesture, {});
+  const ReshapeResult carried = reshaped_near(mesh, gesture, with_remesh(When::always));
   ASSERT_NE(carried.stand_in, nullptr);
   EXPECT_LT((direct.positions - carried.positions).rowwise().norm().mean(), 0.01 * box_diagonal(mesh.positions));
 }
 
 TEST_F(StandInFor, AnIdentityGestureReturnsTheMesh) {
   const Mesh mesh = needles();
-  const ReshapeResult result = reshaped(mesh, test::move_top(mesh, {0, 0, 0}), with_remesh(When::always));
+  const ReshapeResult result = reshaped_near(mesh, test::move_top(mesh, {0, 0, 0}), with_remesh(When::always));
   EXPECT_LT((result.positions - mesh.positions).rowwise().norm().maxCoeff(), 1e-6 * box_diagonal(mesh.positions));
 }
 
@@ -57,12 +57,12 @@ TEST_F(StandInFor, NeedlesIsTakenByItself) {
     const double y = mesh.positions(v, 1);
     gesture.add(v, mesh.positions.row(v) + Eigen::RowVector3d(0, y > 0.5 ? 0.4 : 0, 0));
   }
-  const ReshapeResult result = reshaped(mesh, gesture, with_remesh(When::automatic));
+  const ReshapeResult result = reshaped_near(mesh, gesture, with_remesh(When::automatic));
   EXPECT_THAT(result.report.paths.at("mesh"), HasSubstr("remeshed"));
   EXPECT_LT(test::handle_error(mesh, gesture, result.positions), 0.01);
   EXPECT_LT(test::mean_normal_change(mesh, result.positions), 1);
   const Mesh good = test::cylinder(0.5, 1, 32, 10);
-  const ReshapeResult direct = reshaped(good, test::move_top(good, {0, 0.1, 0}), with_remesh(When::automatic));
+  const ReshapeResult direct = reshaped_near(good, test::move_top(good, {0, 0.1, 0}), with_remesh(When::automatic));
   EXPECT_EQ(direct.stand_in, nullptr);
   EXPECT_THAT(direct.report.paths.at("mesh"), HasSubstr("well shaped"));
 }
@@ -90,7 +90,7 @@ TEST(ScaffoldTies, JoinComponentsApart) {
   const Mesh mesh = test::joined(box, test::transformed(box, 0.5, {1.2, 0.25, 0.25}));
   Gesture gesture;
   for (int v = 0; v < box.positions.rows(); ++v) gesture.add(v, box.positions.row(v) + Eigen::RowVector3d(0, 2, 0));
-  const ReshapeResult result = reshaped(mesh, gesture, {});
+  const ReshapeResult result = reshaped_near(mesh, gesture, {});
   EXPECT_THAT(result.report.paths.at("components"), HasSubstr("scaffold of"));
   const Positions second = (result.positions - mesh.positions).bottomRows(box.positions.rows());
   EXPECT_LT((second.rowwise() - Eigen::RowVector3d(0, 2, 0)).rowwise().norm().maxCoeff(), 0.1);
@@ -105,7 +105,7 @@ TEST(ScaffoldTies, AreLinksWhereNoneAreWanted) {
   const Mesh mesh = test::joined(box, test::transformed(box, 1, {2, 0, 0}));
   ReshapeOptions options;
   options.scaffold = When::never;
-  const ReshapeResult result = reshaped(mesh, test::move_top(mesh, {0, 0.1, 0}), options);
+  const ReshapeResult result = reshaped_near(mesh, test::move_top(mesh, {0, 0.1, 0}), options);
   EXPECT_FALSE(result.scaffold.has_value());
   EXPECT_THAT(result.report.paths.at("components"), HasSubstr("links between nearest points"));
 }

@@ -22,7 +22,7 @@ using enum StylizeWeights;
 
 const StylizeEnergy kEveryEnergy[] = {arap, farap, acap};
 
-StylizeResult solved(const Mesh& mesh, const ClosestNormals& style, double lambda, const StylizeOptions& options) {
+StylizeResult stylized(const Mesh& mesh, const ClosestNormals& style, double lambda, const StylizeOptions& options) {
   return stylize(mesh.positions, mesh.triangles, style, lambda, options);
 }
 
@@ -46,10 +46,10 @@ TEST(StylizeWeights, AreTheSameWhereNoCotangentsSumToLessThanNothing) {
     StylizeOptions options;
     options.energy = energy;
     options.pass_limit = 20;
-    const Positions plain = solved(mesh, cube_normals(), 2, options).positions;
+    const Positions plain = stylized(mesh, cube_normals(), 2, options).positions;
     for (const StylizeWeights weights : weights_for(energy)) {
       options.weights = weights;
-      EXPECT_LT(far_apart(plain, solved(mesh, cube_normals(), 2, options).positions), 1e-12)
+      EXPECT_LT(far_apart(plain, stylized(mesh, cube_normals(), 2, options).positions), 1e-12)
           << to_string(energy) << ", " << to_string(weights);
     }
   }
@@ -63,7 +63,7 @@ TEST(StylizeWeights, NeverRaiseTheEnergyForConstantTargets) {
       options.energy = energy;
       options.weights = weights;
       options.pass_limit = 60;
-      const std::vector<double> energies = solved(mesh, cube_normals(false), 3, options).report.energies;
+      const std::vector<double> energies = stylized(mesh, cube_normals(false), 3, options).report.energies;
       for (size_t i = 1; i < energies.size(); ++i) {
         EXPECT_LE(energies[i], energies[i - 1] * (1 + 1e-12)) << to_string(energy) << ", " << to_string(weights);
       }
@@ -76,7 +76,7 @@ TEST(StylizeWeights, MoveNothingWithoutWeightOfTheStyle) {
   for (const StylizeWeights weights : {clamped, intrinsic_delaunay}) {
     StylizeOptions options;
     options.weights = weights;
-    EXPECT_LT(far_apart(mesh.positions, solved(mesh, cube_normals(), 0, options).positions), 1e-12);
+    EXPECT_LT(far_apart(mesh.positions, stylized(mesh, cube_normals(), 0, options).positions), 1e-12);
   }
 }
 
@@ -116,7 +116,7 @@ TEST(StylizeWeights, OfIntrinsicTrianglesDependLessOnTheMeshs) {
   const auto cubic = [](const Mesh& mesh, StylizeWeights weights) {
     StylizeOptions options;
     options.weights = weights;
-    return share_near(mesh, solved(mesh, cube_normals(), 10, options).positions, cube_normals().normals, 10);
+    return share_near(mesh, stylized(mesh, cube_normals(), 10, options).positions, cube_normals().normals, 10);
   };
   const Mesh good = twisted_sphere(0), slanted = twisted_sphere(3);
   const double due = cubic(good, cotangent);
@@ -131,33 +131,28 @@ TEST(StylizeWeights, OfIntrinsicTrianglesAreNotForTheMeshsOwn) {
   EXPECT_THROW(Stylize(mesh.positions, mesh.triangles, options), InvalidInput);
 }
 
-struct FineShape {
-  std::string name;
-  Mesh mesh;
-};
-
-std::vector<FineShape> fine_shapes() {
+std::vector<NamedMesh> fine_shapes() {
   return {{"sphere", askew(sphere(1, 3))},
           {"torus", askew(torus(1, 0.4, 36, 18))},
           {"bumpy", askew(bumpy_sphere(0.05, 3))},
           {"sheet", askew(sheet(10))}};
 }
 
-class StylizeAcceleration : public testing::TestWithParam<FineShape> {
+class StylizeAcceleration : public testing::TestWithParam<NamedMesh> {
  protected:
-  static StylizeResult solved(StylizeEnergy energy, bool dynamic, int window, double movement = 1e-7) {
+  static StylizeResult stylized(StylizeEnergy energy, bool dynamic, int window, double movement = 1e-7) {
     StylizeOptions options;
     options.energy = energy;
     options.pass_limit = 20000;
     options.movement = movement;
     options.acceleration_window = window;
-    return test::solved(GetParam().mesh, cube_normals(dynamic), 1, options);
+    return test::stylized(GetParam().mesh, cube_normals(dynamic), 1, options);
   }
 };
 
 TEST_P(StylizeAcceleration, ReachesTheSameFixedPointInAThirdOfThePasses) {
   for (const StylizeEnergy energy : kEveryEnergy) {
-    const StylizeResult plain = solved(energy, false, 0), fast = solved(energy, false, 5);
+    const StylizeResult plain = stylized(energy, false, 0), fast = stylized(energy, false, 5);
     EXPECT_LT(far_apart(plain.positions, fast.positions), 1e-6) << to_string(energy);
     EXPECT_LE(3 * fast.report.passes, plain.report.passes + 3) << to_string(energy);
   }
@@ -166,7 +161,7 @@ TEST_P(StylizeAcceleration, ReachesTheSameFixedPointInAThirdOfThePasses) {
 /// Targets that are looked up again may settle otherwise.
 TEST_P(StylizeAcceleration, ReachesAsLowAnEnergyForDynamicTargets) {
   for (const StylizeEnergy energy : kEveryEnergy) {
-    const StylizeResult plain = solved(energy, true, 0), fast = solved(energy, true, 5);
+    const StylizeResult plain = stylized(energy, true, 0), fast = stylized(energy, true, 5);
     EXPECT_LT(fast.report.energy, 1.005 * plain.report.energy + 1e-12) << to_string(energy);
     EXPECT_LT(2 * fast.report.passes, plain.report.passes) << to_string(energy);
   }
@@ -174,7 +169,7 @@ TEST_P(StylizeAcceleration, ReachesAsLowAnEnergyForDynamicTargets) {
 
 TEST_P(StylizeAcceleration, NeverRaisesTheEnergyForConstantTargets) {
   for (const StylizeEnergy energy : kEveryEnergy) {
-    const std::vector<double> energies = solved(energy, false, 5).report.energies;
+    const std::vector<double> energies = stylized(energy, false, 5).report.energies;
     for (size_t i = 1; i < energies.size(); ++i) EXPECT_LE(energies[i], energies[i - 1] * (1 + 1e-12));
   }
 }

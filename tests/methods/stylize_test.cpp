@@ -23,7 +23,6 @@ using Eigen::Vector3d;
 using testing::HasSubstr;
 using enum StylizeEnergy;
 
-const Matrix3d kTurn = AngleAxisd(1.1, Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
 const StylizeEnergy kEnergies[] = {arap, farap, acap};
 
 StylizeOptions by(StylizeEnergy energy, int pass_limit = 350) {
@@ -33,12 +32,7 @@ StylizeOptions by(StylizeEnergy energy, int pass_limit = 350) {
   return options;
 }
 
-struct Shape {
-  std::string name;
-  Mesh mesh;
-};
-
-std::vector<Shape> shapes() {
+std::vector<NamedMesh> meshes_to_stylize() {
   return {{"sphere", askew(sphere(1, 2))},
           {"torus", askew(torus(1, 0.4, 24, 12))},
           {"box", askew(box({1, 2, 0.5}, 4))},
@@ -46,7 +40,7 @@ std::vector<Shape> shapes() {
           {"apart", askew(joined(sphere(1, 2), transformed(sphere(1, 2), 0.5, {3, 0, 0})))}};
 }
 
-class StylizeShape : public testing::TestWithParam<Shape> {};
+class StylizeShape : public testing::TestWithParam<NamedMesh> {};
 
 TEST_P(StylizeShape, StaysAsItIsWithoutWeight) {
   const Mesh& mesh = GetParam().mesh;
@@ -106,7 +100,7 @@ TEST_P(StylizeShape, NearsItsTargets) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Any, StylizeShape, testing::ValuesIn(shapes()),
+INSTANTIATE_TEST_SUITE_P(Any, StylizeShape, testing::ValuesIn(meshes_to_stylize()),
                          [](const auto& instance) { return instance.param.name; });
 
 /// What is left out is the triangles along the cube's edges: the finer the mesh, the fewer.
@@ -264,7 +258,7 @@ TEST(Stylize, IsTheSameOnADeviceInSingle) { expect_as_on_cpu(Precision::single, 
 TEST(Stylize, IsTheSameOnADeviceInDouble) { expect_as_on_cpu(Precision::twice, 1e-8); }
 
 template <typename Call>
-void expect_refused(const Call& call, const std::string& words) {
+void expect_style_refused(const Call& call, const std::string& words) {
   try {
     call();
     ADD_FAILURE() << "not refused: " << words;
@@ -282,21 +276,21 @@ TEST(Stylize, RefusesWhatItCannotTake) {
   const auto with = [&](const StylizeOptions& options) {
     return [&mesh, options] { Stylize(mesh.positions, mesh.triangles, options); };
   };
-  expect_refused(solve(cube_normals(), -1), "lambda");
-  expect_refused(solve(cube_normals(), nan), "lambda");
-  expect_refused(solve(ClosestNormals{}, 1), "style.normals: there is none");
-  expect_refused(solve(ClosestNormals{Positions::Zero(2, 3)}, 1), "row 0 has no direction");
-  expect_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
-  expect_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
-  expect_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
-  expect_refused(solve(Developable{-0.1}, 1), "tau");
-  expect_refused(solve(Developable{0.1, -1}, 1), "threshold");
-  expect_refused(solve(SphereMap{}, 1), "directions");
-  expect_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");
-  expect_refused(with(by(arap, 0)), "pass_limit");
+  expect_style_refused(solve(cube_normals(), -1), "lambda");
+  expect_style_refused(solve(cube_normals(), nan), "lambda");
+  expect_style_refused(solve(ClosestNormals{}, 1), "style.normals: there is none");
+  expect_style_refused(solve(ClosestNormals{Positions::Zero(2, 3)}, 1), "row 0 has no direction");
+  expect_style_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
+  expect_style_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
+  expect_style_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
+  expect_style_refused(solve(Developable{-0.1}, 1), "tau");
+  expect_style_refused(solve(Developable{0.1, -1}, 1), "threshold");
+  expect_style_refused(solve(SphereMap{}, 1), "directions");
+  expect_style_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");
+  expect_style_refused(with(by(arap, 0)), "pass_limit");
   StylizeOptions options;
   options.movement = -1;
-  expect_refused(with(options), "movement");
+  expect_style_refused(with(options), "movement");
   Gesture handles;
   handles.add(42, {0, 0, 0});
   EXPECT_THROW(stylize(mesh.positions, mesh.triangles, cube_normals(), 1, {}, handles), InvalidInput);

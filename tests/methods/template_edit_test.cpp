@@ -117,7 +117,7 @@ struct Part {
   RowVector3d before, factors;
 };
 template <typename Is>
-Part part(const Positions& rest, const Positions& positions, const Is& is) {
+Part part_of(const Positions& rest, const Positions& positions, const Is& is) {
   Positions before(rest.rows(), 3), after(rest.rows(), 3);
   Index count = 0;
   for (Index v = 0; v < rest.rows(); ++v) {
@@ -136,15 +136,15 @@ TEST(TemplateEdit, LeavesArmsAndLegsOfALongerCouch) {
   const Positions& rest = couch.mesh.positions;
   const Positions positions = edit.solve(with(couch, "width", 2 * value("width"))).positions;
   const double inside = value("width") / 2 - 0.8 * value("arm_width");
-  const Part arm = part(rest, positions, [&](const RowVector3d& p) {
+  const Part arm = part_of(rest, positions, [&](const RowVector3d& p) {
     return p[0] > inside && p[1] > value("seat_height") + 0.5 * value("arm_height") && p[2] > 0;
   });
-  const Part leg = part(rest, positions,
-                        [&](const RowVector3d& p) { return p[0] > 0 && p[2] > 0 && p[1] < 0.8 * value("leg_height"); });
+  const Part leg = part_of(
+      rest, positions, [&](const RowVector3d& p) { return p[0] > 0 && p[2] > 0 && p[1] < 0.8 * value("leg_height"); });
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(arm.factors[axis], 1, 0.03) << axis;
   EXPECT_NEAR(leg.factors[0], 1, 0.03);
   EXPECT_NEAR(leg.factors[2], 1, 0.03);
-  const Part seat = part(rest, positions, [&](const RowVector3d& p) {
+  const Part seat = part_of(rest, positions, [&](const RowVector3d& p) {
     return std::abs(p[0]) < 0.5 * inside && p[1] > 0.9 * value("seat_height") && p[2] > 0;
   });
   EXPECT_GT(seat.factors[0], 2);  // As arms and their sides take no part.

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-VectorXd with(const Template& of, const std::map<std::string, double>& values) {
+VectorXd values_with(const Template& of, const std::map<std::string, double>& values) {
   VectorXd parameters = of.defaults();
   for (const auto& [name, value] : values) parameters[of.parameter(name)] = value;
   return parameters;
@@ -27,17 +27,17 @@ VectorXd with(const Template& of, const std::map<std::string, double>& values) {
 /// Every parameter is off by up to 30 % at the start, and within 1 % of its range at the end.
 TEST(TemplateFit, FindsTheParametersFromPerturbedStarts) {
   const Template of = shipped_template("box");
-  const VectorXd wanted = with(of, {{"width", 1.3},
-                                    {"height", 1.1},
-                                    {"depth", 0.8},
-                                    {"x", 0.5},
-                                    {"y", -0.4},
-                                    {"z", 0.3},
-                                    {"rounding", 0.2},
-                                    {"taper", 1.3},
-                                    {"twist", 30},
-                                    {"lean", 0.3},
-                                    {"bend", 25}});
+  const VectorXd wanted = values_with(of, {{"width", 1.3},
+                                           {"height", 1.1},
+                                           {"depth", 0.8},
+                                           {"x", 0.5},
+                                           {"y", -0.4},
+                                           {"z", 0.3},
+                                           {"rounding", 0.2},
+                                           {"taper", 1.3},
+                                           {"twist", 30},
+                                           {"lean", 0.3},
+                                           {"bend", 25}});
   const Mesh mesh = template_mesh(of, wanted, {96, nullptr});
   FitOptions options;
   options.surface_samples = 300;
@@ -65,7 +65,7 @@ TEST(TemplateFit, FindsTheParametersFromPerturbedStarts) {
 
 Mesh couch() {
   const Template of = shipped_template("couch");
-  return template_mesh(of, with(of, {{"width", 2.4}, {"arm_width", 0.3}}), {64, nullptr});
+  return template_mesh(of, values_with(of, {{"width", 2.4}, {"arm_width", 0.3}}), {64, nullptr});
 }
 
 double diagonal(const Mesh& mesh) {

@@ -52,7 +52,7 @@ TEST(TemplateExpression, IsArithmeticAsWritten) {
   EXPECT_NEAR(expression("radians(180)"), std::numbers::pi, 1e-15);
 }
 
-std::string refusal(const std::string& text) {
+std::string text_refusal(const std::string& text) {
   try {
     parse_template(text, "test.json");
   } catch (const UnreadableFile& error) {
@@ -62,7 +62,7 @@ std::string refusal(const std::string& text) {
 }
 
 std::string refused_expression(const std::string& text) {
-  return refusal(file_of(kSize, R"({"id": "root", "type": "sphere", "radius": ")" + text + R"("})"));
+  return text_refusal(file_of(kSize, R"({"id": "root", "type": "sphere", "radius": ")" + text + R"("})"));
 }
 
 TEST(TemplateExpression, IsRefusedWithItsPlace) {
@@ -80,14 +80,14 @@ TEST(TemplateExpression, IsRefusedWithItsPlace) {
 
 TEST(TemplateFile, IsRefusedWithPathAndRemedy) {
   const std::string sphere = R"({"id": "root", "type": "sphere", "radius": 1})";
-  EXPECT_EQ(refusal(file_of(kSize, sphere)), "");
-  EXPECT_THAT(refusal("{"), HasSubstr("test.json: line 1: not valid JSON"));
-  EXPECT_THAT(refusal("[]"), HasSubstr("an object in braces is expected"));
-  EXPECT_THAT(refusal(R"({"version": 2})"), HasSubstr("version: a whole number from 1 to 1"));
-  EXPECT_THAT(refusal(R"({"version": 1, "version": 1})"), HasSubstr("there twice"));
-  EXPECT_THAT(refusal(R"({"version": 1, "name": "n"})"), HasSubstr("'parameters' is missing"));
+  EXPECT_EQ(text_refusal(file_of(kSize, sphere)), "");
+  EXPECT_THAT(text_refusal("{"), HasSubstr("test.json: line 1: not valid JSON"));
+  EXPECT_THAT(text_refusal("[]"), HasSubstr("an object in braces is expected"));
+  EXPECT_THAT(text_refusal(R"({"version": 2})"), HasSubstr("version: a whole number from 1 to 1"));
+  EXPECT_THAT(text_refusal(R"({"version": 1, "version": 1})"), HasSubstr("there twice"));
+  EXPECT_THAT(text_refusal(R"({"version": 1, "name": "n"})"), HasSubstr("'parameters' is missing"));
   const auto with = [&](const std::string& parameters, const std::string& nodes) {
-    return refusal(file_of(parameters, nodes));
+    return text_refusal(file_of(parameters, nodes));
   };
   EXPECT_THAT(with(kSize, R"({"id": "root", "type": "spere", "radius": 1})"), HasSubstr("nodes[0].type: 'spere'"));
   EXPECT_THAT(with(kSize, R"({"id": "root", "type": "sphere"})"), HasSubstr("'radius' is missing"));
@@ -125,7 +125,7 @@ TEST(TemplateFile, IsRefusedWhereItIsTooLarge) {
              R"(", "type": "repeat", "of": "n)" + std::to_string(i - 1) + R"(", "count": 64, "spacing": )" +
              std::to_string(i) + "}";
   }
-  EXPECT_THAT(refusal(file_of(kSize, nodes)), HasSubstr("too large"));
+  EXPECT_THAT(text_refusal(file_of(kSize, nodes)), HasSubstr("too large"));
 }
 
 /// Numbers are too many to be kept as well.
@@ -142,7 +142,7 @@ TEST(TemplateFile, IsRefusedWhereItHasTooManyNumbers) {
     ids += (i > 0 ? ", " : "") + id;
   }
   nodes += R"({"id": "flat", "type": "union", "of": [)" + ids + "]}, ";
-  EXPECT_THAT(refusal(file_of(kSize, nodes + R"({"id": "root", "type": "extrude", "of": "flat", "height": 1})")),
+  EXPECT_THAT(text_refusal(file_of(kSize, nodes + R"({"id": "root", "type": "extrude", "of": "flat", "height": 1})")),
               HasSubstr("nodes: the template is too large"));
 }
 
@@ -156,7 +156,7 @@ TEST(TemplateExpression, MayBeNestedInItself) {
 /// What calls itself for what is nested must not run out of stack.
 TEST(TemplateFile, IsRefusedWhereItIsTooDeep) {
   const std::string brackets = std::string(1'000'000, '[') + std::string(1'000'000, ']');
-  EXPECT_THAT(refusal(R"({"version": )" + brackets + "}"), HasSubstr("nested too deep"));
+  EXPECT_THAT(text_refusal(R"({"version": )" + brackets + "}"), HasSubstr("nested too deep"));
   const auto chain = [](int count, int first) {
     std::string nodes;
     for (int i = first; i < first + count; ++i) {
@@ -167,10 +167,11 @@ TEST(TemplateFile, IsRefusedWhereItIsTooDeep) {
   };
   const std::string ball = R"({"id": "n0", "type": "sphere", "radius": 1}, )";
   const auto root = [](const std::string& of) { return R"({"id": "root", "type": "union", "of": [)" + of + "]}"; };
-  EXPECT_EQ(refusal(file_of(kSize, ball + chain(200, 1) + root("\"n200\""))), "");
-  EXPECT_THAT(refusal(file_of(kSize, ball + chain(4000, 1) + root("\"n4000\""))), HasSubstr("one within the other"));
+  EXPECT_EQ(text_refusal(file_of(kSize, ball + chain(200, 1) + root("\"n200\""))), "");
+  EXPECT_THAT(text_refusal(file_of(kSize, ball + chain(4000, 1) + root("\"n4000\""))),
+              HasSubstr("one within the other"));
   // Each not deep beyond what is known already.
-  EXPECT_THAT(refusal(file_of(kSize, ball + chain(400, 1) + root("\"n200\", \"n400\""))),
+  EXPECT_THAT(text_refusal(file_of(kSize, ball + chain(400, 1) + root("\"n200\", \"n400\""))),
               HasSubstr("one within the other"));
 }
 

@@ -28,7 +28,7 @@ Template round_template() {
                         "ball");
 }
 
-Eigen::RowVector3d extents(const Mesh& mesh) {
+Eigen::RowVector3d extents_of(const Mesh& mesh) {
   return mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff();
 }
 
@@ -50,7 +50,7 @@ TEST(TemplateMesh, KeepsEdgesSharp) {
   parameters[of.parameter("depth")] = 2.1;
   const Mesh mesh = template_mesh(of, parameters, {48, nullptr});
   EXPECT_NEAR(volume(mesh), 2.1, 1e-3);
-  EXPECT_LT((extents(mesh) - Eigen::RowVector3d(1, 1, 2.1)).norm(), 1e-3);
+  EXPECT_LT((extents_of(mesh) - Eigen::RowVector3d(1, 1, 2.1)).norm(), 1e-3);
 }
 
 TEST(TemplateMesh, IsRefusedOrEmptyInWords) {
@@ -86,7 +86,7 @@ TEST_P(ShippedTemplates, AreSurfacesEverywhere) {
     }
     const Mesh mesh = template_mesh(of, parameters, {64, nullptr});
     EXPECT_GT(mesh.triangles.rows(), 50);
-    EXPECT_LT(extents(mesh).norm(), 30 * extents(usual).norm());
+    EXPECT_LT(extents_of(mesh).norm(), 30 * extents_of(usual).norm());
   }
 }
 
@@ -102,7 +102,7 @@ TEST(ShippedLamp, LeansAsAWhole) {
   const Mesh upright = template_mesh(of, of.defaults(), {64, nullptr}),
              leant = template_mesh(of, leaning, {64, nullptr});
   // Widest is the shade: it has its width still, and its middle is where the stand ends.
-  EXPECT_NEAR(extents(leant)[2], extents(upright)[2], 0.01);
+  EXPECT_NEAR(extents_of(leant)[2], extents_of(upright)[2], 0.01);
   double left = 1e9, right = -1e9;
   for (const auto& at : leant.positions.rowwise()) {
     if (at[1] < shade - 0.05) continue;

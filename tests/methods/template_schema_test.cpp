@@ -30,7 +30,7 @@ Names keys_of(const Json& object) {
   return names;
 }
 
-std::string refusal(const Json& document) {
+std::string schema_refusal(const Json& document) {
   try {
     parse_template(document.dump(), "test.json");
   } catch (const UnreadableFile& error) {
@@ -98,19 +98,19 @@ Json document_of(const Json& node) {
 /// The object has what the schema lists, and is refused with a key beyond, without one that is needed, and not without
 /// another.
 void expect_keys(const Json& described, const Json& object, const std::function<Json(const Json&)>& document) {
-  EXPECT_EQ(refusal(document(object)), "");
+  EXPECT_EQ(schema_refusal(document(object)), "");
   EXPECT_EQ(keys_of(object), keys_of(described["properties"]));
   Json more = object;
   more["unheard_of"] = 1;
-  EXPECT_EQ(listed_in(refusal(document(more)), "known are ", ";"), keys_of(described["properties"]));
+  EXPECT_EQ(listed_in(schema_refusal(document(more)), "known are ", ";"), keys_of(described["properties"]));
   const Names needed = described["required"].get<Names>();
   for (const std::string& key : keys_of(object)) {
     Json less = object;
     less.erase(key);
     if (needed.contains(key)) {
-      EXPECT_THAT(refusal(document(less)), HasSubstr("'" + key + "' is missing"));
+      EXPECT_THAT(schema_refusal(document(less)), HasSubstr("'" + key + "' is missing"));
     } else {
-      EXPECT_EQ(refusal(document(less)), "") << key;
+      EXPECT_EQ(schema_refusal(document(less)), "") << key;
     }
   }
 }
@@ -118,7 +118,8 @@ void expect_keys(const Json& described, const Json& object, const std::function<
 TEST(TemplateSchema, HasTheTypesOfTheReader) {
   const Json& node = schema()["$defs"]["node"];
   const Names types = node["properties"]["type"]["enum"].get<Names>();
-  EXPECT_EQ(listed_in(refusal(document_of({{"id", "asked"}, {"type", "unheard_of"}})), "is none of ", ""), types);
+  EXPECT_EQ(listed_in(schema_refusal(document_of({{"id", "asked"}, {"type", "unheard_of"}})), "is none of ", ""),
+            types);
   EXPECT_EQ(keys_of(schema()["$defs"]["nodes"]), types);
   Names told;
   for (const Json& one : node["allOf"]) {
@@ -150,7 +151,7 @@ TEST(TemplateSchema, HasTheKeysOfTheReader) {
 TEST(TemplateSchema, RefusesWhatTheReaderRefuses) {
   const Json broken = Json::parse(std::ifstream(SWAGE_BROKEN_TEMPLATES));
   EXPECT_GT(broken.size(), 10);
-  for (const Json& one : broken) EXPECT_NE(refusal(one["template"]), "") << one["why"];
+  for (const Json& one : broken) EXPECT_NE(schema_refusal(one["template"]), "") << one["why"];
 }
 
 }  // namespace

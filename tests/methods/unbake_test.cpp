@@ -45,7 +45,7 @@ TextureCoordinates texture_of(const Mesh& mesh, const Place& place) {
   return texture;
 }
 
-RowVector2d flat(const RowVector3d& p) { return {p[0], p[1]}; }
+RowVector2d in_plane(const RowVector3d& p) { return {p[0], p[1]}; }
 
 double farthest(const Positions& normals, const Vector3d& due) {
   return (normals.rowwise() - due.transpose()).rowwise().norm().maxCoeff();
@@ -72,15 +72,15 @@ TEST(Unbaked, RedIsAlongUAndGreenAlongV) {
   const auto targets = [&](auto place, const Vector3d& normal, const NormalMapOptions& options = {}) {
     return unbaked(mesh, texture_of(mesh, place), constant(normal), options).normals;
   };
-  EXPECT_LT(farthest(targets(flat, kRed), {0.6, 0, 0.8}), 1e-6);
-  EXPECT_LT(farthest(targets(flat, kGreen), {0, 0.6, 0.8}), 1e-6);
+  EXPECT_LT(farthest(targets(in_plane, kRed), {0.6, 0, 0.8}), 1e-6);
+  EXPECT_LT(farthest(targets(in_plane, kGreen), {0, 0.6, 0.8}), 1e-6);
   EXPECT_LT(farthest(targets(turned, kRed), {0, 0.6, 0.8}), 1e-6);
   EXPECT_LT(farthest(targets(turned, kGreen), {-0.6, 0, 0.8}), 1e-6);
   EXPECT_LT(farthest(targets(mirrored, kRed), {-0.6, 0, 0.8}), 1e-6);
   EXPECT_LT(farthest(targets(mirrored, kGreen), {0, 0.6, 0.8}), 1e-6);
   NormalMapOptions down;
   down.green_down = true;
-  EXPECT_LT(farthest(targets(flat, kGreen, down), {0, -0.6, 0.8}), 1e-6);
+  EXPECT_LT(farthest(targets(in_plane, kGreen, down), {0, -0.6, 0.8}), 1e-6);
   EXPECT_LT(farthest(targets(mirrored, kGreen, down), {0, -0.6, 0.8}), 1e-6);
   EXPECT_LT(farthest(targets(mirrored, kRed, down), {-0.6, 0, 0.8}), 1e-6);
 }
@@ -99,10 +99,10 @@ TEST(Unbaked, IsTheMeanOverATriangle) {
   // Stripes, two a triangle: they cancel.
   const NormalPicture stripes =
       map_of(64, [](double u, double) { return Vector3d(std::fmod(u, 1.0 / 8) < 1.0 / 16 ? 0.6 : -0.6, 0, 0.8); });
-  EXPECT_LT(farthest(unbaked(mesh, texture_of(mesh, flat), stripes).normals, Vector3d::UnitZ()), 0.12);
+  EXPECT_LT(farthest(unbaked(mesh, texture_of(mesh, in_plane), stripes).normals, Vector3d::UnitZ()), 0.12);
   // One half red, the other green: the triangles of each are of it.
   const NormalPicture halves = map_of(64, [](double, double v) { return v < 0.5 ? kRed : kGreen; });
-  const Positions normals = unbaked(mesh, texture_of(mesh, flat), halves).normals;
+  const Positions normals = unbaked(mesh, texture_of(mesh, in_plane), halves).normals;
   for (Eigen::Index t = 0; t < normals.rows(); ++t) {
     double middle = 0;
     for (const int v : mesh.triangles.row(t)) middle += mesh.positions(v, 1) / 3;
@@ -115,20 +115,20 @@ TEST(Unbaked, ThePictureIsThereAgainBeyondIt) {
   const Mesh mesh = sheet(4);
   const NormalPicture halves = map_of(64, [](double u, double) { return u < 0.5 ? kRed : kGreen; });
   const auto beyond = [](const RowVector3d& p) { return RowVector2d(p[0] - 7, p[1] + 3); };
-  const Positions here = unbaked(mesh, texture_of(mesh, flat), halves).normals;
+  const Positions here = unbaked(mesh, texture_of(mesh, in_plane), halves).normals;
   EXPECT_LT((here - unbaked(mesh, texture_of(mesh, beyond), halves).normals).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(Unbaked, TrianglesWithoutAPlaceKeepTheirNormalAndThoseWithoutColourHaveNone) {
   const Mesh mesh = sheet(2);
-  TextureCoordinates texture = texture_of(mesh, flat);
+  TextureCoordinates texture = texture_of(mesh, in_plane);
   texture.points.conservativeResize(texture.points.rows() + 1, 2);
   texture.points.bottomRows(1) << 0.2, 0.2;
   texture.triangles.row(3).setConstant(static_cast<int>(texture.points.rows() - 1));
   const Positions normals = unbaked(mesh, texture, constant(kRed)).normals;
   EXPECT_LT((normals.row(3) - RowVector3d(0, 0, 1)).norm(), 1e-12);
   EXPECT_LT((normals.row(2) - kRed.transpose()).norm(), 1e-6);
-  EXPECT_EQ(unbaked(mesh, texture_of(mesh, flat), constant(Vector3d::Zero())).normals, Positions::Zero(8, 3));
+  EXPECT_EQ(unbaked(mesh, texture_of(mesh, in_plane), constant(Vector3d::Zero())).normals, Positions::Zero(8, 3));
 }
 
 TEST(Unbaked, IsReliefOnceStylized) {
@@ -144,7 +144,8 @@ TEST(Unbaked, IsReliefOnceStylized) {
     StylizeOptions options;
     options.energy = energy;
     const Positions relief =
-        stylize(mesh.positions, mesh.triangles, unbaked(mesh, texture_of(mesh, flat), bumps), 100, options).positions;
+        stylize(mesh.positions, mesh.triangles, unbaked(mesh, texture_of(mesh, in_plane), bumps), 100, options)
+            .positions;
     Eigen::VectorXd due(relief.rows());
     for (Eigen::Index v = 0; v < due.size(); ++v) due[v] = height(mesh.positions(v, 0), mesh.positions(v, 1));
     due.array() -= due.mean();
@@ -156,7 +157,7 @@ TEST(Unbaked, IsReliefOnceStylized) {
 
 TEST(Unbaked, WhatDoesNotFitIsRefused) {
   const Mesh mesh = sheet(2);
-  const TextureCoordinates texture = texture_of(mesh, flat);
+  const TextureCoordinates texture = texture_of(mesh, in_plane);
   const auto refused = [&](const TextureCoordinates& one, const NormalPicture& map) {
     try {
       unbaked(mesh, one, map);

@@ -44,7 +44,7 @@ class Source {
 };
 
 /// In units of the grid's size, from its corner.
-Mesh placed(const GridShape& shape, const std::vector<Matrix3d>& triangles) {
+Mesh placed_on_grid(const GridShape& shape, const std::vector<Matrix3d>& triangles) {
   Mesh mesh = loose(triangles);
   mesh.positions = (mesh.positions * shape.size.asDiagonal()).rowwise() + shape.corner;
   return mesh;
@@ -120,12 +120,12 @@ std::vector<GridCase> grid_cases() {
   const GridShape far = {{{7, 7, 7}}, {1e6, -1e6, 1e6}, {1, 2, 3}}, one = {{{1, 1, 1}}, {0, 0, 0}, {1, 1, 1}};
   std::vector<GridCase> cases;
   for (const GridShape& shape : {odd, flat, line, far, one}) {
-    cases.push_back({"of all sizes", shape, placed(shape, of_all_sizes(source))});
-    cases.push_back({"without area", shape, placed(shape, without_area(source))});
-    cases.push_back({"outside", shape, placed(shape, outside(source))});
+    cases.push_back({"of all sizes", shape, placed_on_grid(shape, of_all_sizes(source))});
+    cases.push_back({"without area", shape, placed_on_grid(shape, without_area(source))});
+    cases.push_back({"outside", shape, placed_on_grid(shape, outside(source))});
   }
   for (const GridShape& shape : {plain, one}) {
-    cases.push_back({"on planes", shape, placed(shape, on_planes(source, shape))});
+    cases.push_back({"on planes", shape, placed_on_grid(shape, on_planes(source, shape))});
   }
   return cases;
 }

@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr double kDialX = 25, kDialY = 83, kDialFront = 16, kDialRadius = 12;
 constexpr int kDentils = 49, kTeeth = 49;  // Of a row.
 
-Mesh block(const Vector3d& low, const Vector3d& high, double bevel = 0.3) {
+Mesh bevelled_block(const Vector3d& low, const Vector3d& high, double bevel = 0.3) {
   return moved(slab(high - low, bevel), (low + high) / 2);
 }
 
@@ -95,17 +95,17 @@ void add_case(Assembler& made) {
   for (const double x : {4.0, 46.0}) {
     for (const double z : {4.0, 18.0}) made.add("foot", moved(ball({2.6, 1.6, 2.6}, made.steps(16)), {x, 1.6, z}));
   }
-  made.add("plinth", block({0, 2.6, 0}, {50, 6, 22}));
-  made.add("plinth step", block({1, 6, 0.6}, {49, 8, 21.2}));
-  made.add("base", block({2, 8, 1}, {48, 15, 20}));
-  made.add("base step", block({1.2, 15, 0.6}, {48.8, 17, 21}));
-  made.add("back", block({4, 17, 1}, {46, 69, 2.5}));
-  made.add("left side", block({4, 17, 1}, {5.5, 69, 17}));
-  made.add("right side", block({44.5, 17, 1}, {46, 69, 17}));
-  made.add("shelf", block({1.2, 69, 0.6}, {48.8, 71, 21}));
-  made.add("hood", block({6, 71, 2}, {44, 98, kDialFront}));
-  made.add("cornice", block({1.5, 98, 0.8}, {48.5, 100, 20.5}));
-  made.add("cornice step", block({0.5, 100, 0.2}, {49.5, 102, 21.5}));
+  made.add("plinth", bevelled_block({0, 2.6, 0}, {50, 6, 22}));
+  made.add("plinth step", bevelled_block({1, 6, 0.6}, {49, 8, 21.2}));
+  made.add("base", bevelled_block({2, 8, 1}, {48, 15, 20}));
+  made.add("base step", bevelled_block({1.2, 15, 0.6}, {48.8, 17, 21}));
+  made.add("back", bevelled_block({4, 17, 1}, {46, 69, 2.5}));
+  made.add("left side", bevelled_block({4, 17, 1}, {5.5, 69, 17}));
+  made.add("right side", bevelled_block({44.5, 17, 1}, {46, 69, 17}));
+  made.add("shelf", bevelled_block({1.2, 69, 0.6}, {48.8, 71, 21}));
+  made.add("hood", bevelled_block({6, 71, 2}, {44, 98, kDialFront}));
+  made.add("cornice", bevelled_block({1.5, 98, 0.8}, {48.5, 100, 20.5}));
+  made.add("cornice step", bevelled_block({0.5, 100, 0.2}, {49.5, 102, 21.5}));
   for (const double x : {6.6, 43.4}) {
     add_column(made, "column", x, 17.5, 17, 69, 1.6);
     add_column(made, "hood column", x - (x < 25 ? 2 : -2), 17.5, 71, 98, 1.2);
@@ -116,12 +116,12 @@ void add_case(Assembler& made) {
   made.add("rosette middle", moved(ball({1.1, 1.1, 0.7}, made.steps(16)), {25, 105.6, 15}));
   for (int i = 0; i < kDentils; ++i) {
     const double x = 3 + 44.0 * i / (kDentils - 1);
-    made.add("dentil", block({x - 0.3, 96.6, 16.5}, {x + 0.3, 98, 19.8}, 0.1));
+    made.add("dentil", bevelled_block({x - 0.3, 96.6, 16.5}, {x + 0.3, 98, 19.8}, 0.1));
   }
   for (const double y : {7.0, 16.0}) {
     for (int i = 0; i < kTeeth; ++i) {
       const double x = 3 + 44.0 * i / (kTeeth - 1);
-      made.add("tooth", block({x - 0.3, y - 0.6, 20.5}, {x + 0.3, y + 0.6, 21.6}, 0.1));
+      made.add("tooth", bevelled_block({x - 0.3, y - 0.6, 20.5}, {x + 0.3, y + 0.6, 21.6}, 0.1));
     }
   }
   add_finial(made, 25, 110.8, 1.1);

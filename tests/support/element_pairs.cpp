@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Pair = std::pair<int, int>;
 
-PairsRest rest_of(const Mesh& mesh, const std::vector<std::vector<Pair>>& elements) {
+PairsRest pairs_rest_of(const Mesh& mesh, const std::vector<std::vector<Pair>>& elements) {
   PairsRest rest;
   rest.vertices = mesh.positions;
   rest.offsets = {0};
@@ -38,7 +38,7 @@ Positions shaken(const Positions& positions, double size, unsigned seed) {
   return bent + Positions::NullaryExpr(positions.rows(), 3, [&] { return 0.01 * size * normal(random); });
 }
 
-Mesh stretched(Mesh mesh, const Eigen::Vector3d& factors) {
+Mesh stretched_mesh(Mesh mesh, const Eigen::Vector3d& factors) {
   mesh.positions = mesh.positions * factors.asDiagonal();
   return mesh;
 }
@@ -65,13 +65,13 @@ PairsRest vertex_pairs(const Mesh& mesh) {
     }
   }
   for (const Pair& edge : edges) elements[static_cast<size_t>(edge.first)].push_back(edge);
-  return rest_of(mesh, elements);
+  return pairs_rest_of(mesh, elements);
 }
 
 PairsRest triangle_pairs(const Mesh& mesh) {
   std::vector<std::vector<Pair>> elements;
   for (const auto& t : mesh.triangles.rowwise()) elements.push_back({{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}});
-  return rest_of(mesh, elements);
+  return pairs_rest_of(mesh, elements);
 }
 
 PairsRest tetrahedron_pairs(const Mesh& mesh) {
@@ -83,7 +83,7 @@ PairsRest tetrahedron_pairs(const Mesh& mesh) {
   for (const auto& t : mesh.triangles.rowwise()) {
     elements.push_back({{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}, {t[0], centre}, {t[1], centre}, {t[2], centre}});
   }
-  return rest_of(with_centre, elements);
+  return pairs_rest_of(with_centre, elements);
 }
 
 PairsRest with_normals(PairsRest rest, unsigned seed) {
@@ -112,7 +112,7 @@ std::vector<PairsCase> pairs_cases() {
       moved_case("triangles", triangle_pairs(torus())),
       moved_case("flat, with boundary", vertex_pairs(sheet(20))),
       moved_case("flat triangles", flat),
-      moved_case("needles", vertex_pairs(stretched(sheet(20), {1, 1e-3, 1}))),
+      moved_case("needles", vertex_pairs(stretched_mesh(sheet(20), {1, 1e-3, 1}))),
       moved_case("tetrahedra", tetrahedron_pairs(sphere(1, 2))),
       moved_case("flat tetrahedra", tetrahedron_pairs(sheet(8))),
       moved_case("random", vertex_pairs({unit_vectors(torus().positions.rows(), 3), torus().triangles})),

@@ -11,7 +11,7 @@ namespace swage::test {
 namespace {
 
 /// Five triangles at one edge: more neighbours than a triangle has sides.
-Mesh fan() {
+Mesh triangle_fan() {
   Mesh mesh{Positions(7, 3), Triangles(5, 3)};
   mesh.positions.topRows(2) << 0, 0, 0, 0, 0, 1;
   for (int i = 0; i < 5; ++i) {
@@ -58,8 +58,8 @@ std::vector<std::pair<std::string, TransformStep::Rest>> rest_families() {
           {"none round", rest_of(box(), 0)},
           {"flat, with boundary", rest_of(sheet(20))},
           {"needles", rest_of(stretched(sheet(20), {1, 1e-3, 1}))},
-          {"five triangles at an edge", rest_of(fan())},
-          {"five triangles at an edge, steady", rest_of(fan(), 2, ReshapeSolver::steady)},
+          {"five triangles at an edge", rest_of(triangle_fan())},
+          {"five triangles at an edge, steady", rest_of(triangle_fan(), 2, ReshapeSolver::steady)},
           {"one triangle", rest_of(triangle)},
           {"random", rest_of(random_shape())},
           {"none", none()},

@@ -1,10 +1,25 @@
 // The shapes that tests run on, generated.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <numbers>
+#include <string>
+
 #include "swage/handles.h"
 #include "swage/mesh.h"
 
 namespace swage::test {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+/// About no axis of the coordinates.
+inline const Eigen::Matrix3d kTurn =
+    Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, 1, -0.4).normalized()).toRotationMatrix();
+
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
 
 /// A closed sphere from an icosahedron subdivided `subdivisions` times.
 Mesh sphere(double radius = 1, int subdivisions = 3);

@@ -14,8 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// Degrees from the nearest of the normals, of each triangle.
 Eigen::VectorXd angles(const Mesh& mesh, const Positions& positions, const Positions& normals) {
   const Positions units = unit_normals(positions, mesh.triangles);
@@ -26,7 +24,7 @@ Eigen::VectorXd angles(const Mesh& mesh, const Positions& positions, const Posit
   return result;
 }
 
-Eigen::VectorXd areas(const Mesh& mesh, const Positions& positions) {
+Eigen::VectorXd areas_at(const Mesh& mesh, const Positions& positions) {
   return area_vectors(positions, mesh.triangles).rowwise().norm() / 2;
 }
 
@@ -62,12 +60,12 @@ double far_apart(const Positions& one, const Positions& other) {
 }
 
 double mean_angle(const Mesh& mesh, const Positions& positions, const Positions& normals) {
-  const Eigen::VectorXd weights = areas(mesh, positions);
+  const Eigen::VectorXd weights = areas_at(mesh, positions);
   return weights.dot(angles(mesh, positions, normals)) / weights.sum();
 }
 
 double share_near(const Mesh& mesh, const Positions& positions, const Positions& normals, double degrees) {
-  const Eigen::VectorXd weights = areas(mesh, positions);
+  const Eigen::VectorXd weights = areas_at(mesh, positions);
   return (angles(mesh, positions, normals).array() <= degrees).select(weights, 0).sum() / weights.sum();
 }
 
