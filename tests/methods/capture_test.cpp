@@ -1,11 +1,11 @@
 // Painted spheres as styles.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
+#include "refused.h"
 #include "shapes.h"
 #include "sphere.h"
 #include "swage/error.h"
@@ -16,7 +16,6 @@ namespace swage::test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::HasSubstr;
 using enum CaptureLayout;
 
 using std::numbers::pi;
@@ -74,16 +73,6 @@ Vector3d itself(const Vector3d& direction) { return direction; }
 
 Vector3d seen_at(const SphereMap& map, const Vector3d& direction) {
   return seen(map, Positions(direction.transpose())).row(0).transpose();
-}
-
-template <typename Call>
-void expect_refused(const Call& call, const std::string& words) {
-  try {
-    call();
-    ADD_FAILURE() << "not refused: " << words;
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr(words));
-  }
 }
 
 TEST(NormalCapture, OfEachPointItselfIsTheIdentity) {

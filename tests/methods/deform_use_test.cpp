@@ -10,6 +10,7 @@
 #include "edit_measures.h"
 #include "gestures.h"
 #include "opencl_device.h"
+#include "refused.h"
 #include "shapes.h"
 #include "swage/deform.h"
 #include "swage/error.h"
@@ -135,40 +136,30 @@ TEST(DeformUse, CanBeCancelled) {
   }
 }
 
-template <class Call>
-std::string refusal_of(const Call& call) {
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
 TEST(DeformUse, RefusesWhatItCannotDo) {
   const Mesh mesh = sheet(2);
   const Gesture gesture = move_top(mesh, {0, 0, 1});
-  const auto with = [&](const auto& set) {
+  const auto refused = [&](const auto& set, const char* words) {
     DeformOptions options;
     set(options);
-    return refusal_of([&] { Deform(mesh.positions, mesh.triangles, options); });
+    expect_refused([&] { Deform(mesh.positions, mesh.triangles, options); }, words);
   };
-  EXPECT_THAT(with([](auto& o) { o.handle_weight = 0; }), HasSubstr("handle_weight"));
-  EXPECT_THAT(with([](auto& o) { o.handle_weight = std::nan(""); }), HasSubstr("handle_weight"));
-  EXPECT_THAT(with([](auto& o) { o.pass_limit = 0; }), HasSubstr("pass_limit"));
-  EXPECT_THAT(with([](auto& o) { o.movement = 0; }), HasSubstr("movement"));
-  EXPECT_THAT(with([](auto& o) { o.acceleration_window = -1; }), HasSubstr("acceleration_window"));
-  EXPECT_THAT(with([](auto& o) { o.filling_time_limit = 0; }), HasSubstr("filling_time_limit"));
+  refused([](auto& o) { o.handle_weight = 0; }, "handle_weight");
+  refused([](auto& o) { o.handle_weight = std::nan(""); }, "handle_weight");
+  refused([](auto& o) { o.pass_limit = 0; }, "pass_limit");
+  refused([](auto& o) { o.movement = 0; }, "movement");
+  refused([](auto& o) { o.acceleration_window = -1; }, "acceleration_window");
+  refused([](auto& o) { o.filling_time_limit = 0; }, "filling_time_limit");
   Mesh flat = mesh;
   flat.positions.col(0).setZero();
   flat.positions.col(2).setZero();
-  EXPECT_THAT(refusal_of([&] { Deform(flat.positions, flat.triangles); }), HasSubstr("Deform: triangles: none"));
+  expect_refused([&] { Deform(flat.positions, flat.triangles); }, "Deform: triangles: none");
   Deform plan(mesh.positions, mesh.triangles);
-  EXPECT_THAT(refusal_of([&] { plan.solve({}); }), HasSubstr("handle"));
-  EXPECT_THAT(refusal_of([&] { plan.solve(gesture, DeformResult{Positions::Zero(3, 3), {}}); }), HasSubstr("3 rows"));
+  expect_refused([&] { plan.solve({}); }, "handle");
+  expect_refused([&] { plan.solve(gesture, DeformResult{Positions::Zero(3, 3), {}}); }, "3 rows");
   DeformResult start{mesh.positions, {}};
   start.positions(1, 1) = std::nan("");
-  EXPECT_THAT(refusal_of([&] { plan.solve(gesture, start); }), HasSubstr("not finite"));
+  expect_refused([&] { plan.solve(gesture, start); }, "not finite");
 }
 
 }  // namespace

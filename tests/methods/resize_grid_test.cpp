@@ -1,5 +1,4 @@
 // The protective grid: what it promises at any factor, whatever the map.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -12,6 +11,7 @@
 #include "carry.h"
 #include "cell_maps.h"
 #include "folds.h"
+#include "refused.h"
 #include "scales.h"
 #include "swage/error.h"
 
@@ -284,15 +284,6 @@ TEST(ResizeGrid, EndsWhereItIsCancelled) {
   EXPECT_THROW(Assembly(shape, map).place(scales.values, {2, 1, 1}, {}, poll), Cancelled);
 }
 
-void expect_call_refused(const std::function<void()>& call, const std::string& with) {
-  try {
-    call();
-    ADD_FAILURE() << "not refused: " << with;
-  } catch (const InvalidInput& reason) {
-    EXPECT_THAT(reason.what(), testing::HasSubstr(with));
-  }
-}
-
 TEST(ResizeGrid, RefusesWhatItCannotTake) {
   const GridShape shape = unit_cells(3, 4, 5);
   const CellMap good = free_map(shape);
@@ -300,8 +291,8 @@ TEST(ResizeGrid, RefusesWhatItCannotTake) {
     GridShape bad_shape = shape;
     CellMap bad = good;
     spoil(bad_shape, bad);
-    expect_call_refused([&] { ScaleSolve solve(bad_shape, bad); }, with);
-    expect_call_refused([&] { Assembly assembly(bad_shape, bad); }, with);
+    expect_refused([&] { ScaleSolve solve(bad_shape, bad); }, with);
+    expect_refused([&] { Assembly assembly(bad_shape, bad); }, with);
   };
   refused("map.theta: nan in cell 7 along y is not in [0, 1]", [](GridShape&, CellMap& map) { map.theta(7, 1) = NAN; });
   refused("map.theta: 1.001 in cell 0 along z is not in [0, 1]",
@@ -319,16 +310,16 @@ TEST(ResizeGrid, RefusesWhatItCannotTake) {
   const Assembly assembly(shape, good);
   const AxisValues ones = AxisValues::Ones(60, 3);
   for (const double bad : {0.0, -1.0, double{INFINITY}, double{NAN}}) {
-    expect_call_refused([&] { solve.solve({1, bad, 1}); }, " along y is not in [1e-6, 1e6]");
-    expect_call_refused([&] { assembly.place(ones, {1, 1, bad}); }, " along z is not in [1e-6, 1e6]");
+    expect_refused([&] { solve.solve({1, bad, 1}); }, " along y is not in [1e-6, 1e6]");
+    expect_refused([&] { assembly.place(ones, {1, 1, bad}); }, " along z is not in [1e-6, 1e6]");
   }
-  expect_call_refused([&] { solve.solve({1, 1, 1}, {-1, 1e-6}); }, "options.size_weight");
-  expect_call_refused([&] { solve.solve({1, 1, 1}, {0, 0}); }, "options.tolerance");
-  expect_call_refused([&] { assembly.place(ones, {1, 1, 1}, {1}); }, "options.tolerance");
-  expect_call_refused([&] { assembly.place(ones.topRows(59), {1, 1, 1}); }, "scales: 59 rows, but there are 60 cells");
-  expect_call_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: row 0 is not finite");
-  expect_call_refused([&] { carry(shape, ones, ones); }, "carry: vertices");
-  expect_call_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: row 0 is not finite");
+  expect_refused([&] { solve.solve({1, 1, 1}, {-1, 1e-6}); }, "options.size_weight");
+  expect_refused([&] { solve.solve({1, 1, 1}, {0, 0}); }, "options.tolerance");
+  expect_refused([&] { assembly.place(ones, {1, 1, 1}, {1}); }, "options.tolerance");
+  expect_refused([&] { assembly.place(ones.topRows(59), {1, 1, 1}); }, "scales: 59 rows, but there are 60 cells");
+  expect_refused([&] { assembly.place(NAN * ones, {1, 1, 1}); }, "scales: row 0 is not finite");
+  expect_refused([&] { carry(shape, ones, ones); }, "carry: vertices");
+  expect_refused([&] { carry(shape, rest_vertices(shape), NAN * ones); }, "carry: points: row 0 is not finite");
 }
 
 }  // namespace

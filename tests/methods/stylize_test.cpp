@@ -9,6 +9,7 @@
 #include "adjacency.h"
 #include "measures.h"
 #include "opencl_device.h"
+#include "refused.h"
 #include "shapes.h"
 #include "stylized.h"
 #include "swage/error.h"
@@ -257,16 +258,6 @@ void expect_as_on_cpu(Precision precision, double tolerance) {
 TEST(Stylize, IsTheSameOnADeviceInSingle) { expect_as_on_cpu(Precision::single, 1e-4); }
 TEST(Stylize, IsTheSameOnADeviceInDouble) { expect_as_on_cpu(Precision::twice, 1e-8); }
 
-template <typename Call>
-void expect_style_refused(const Call& call, const std::string& words) {
-  try {
-    call();
-    ADD_FAILURE() << "not refused: " << words;
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr(words));
-  }
-}
-
 TEST(Stylize, RefusesWhatItCannotTake) {
   const Mesh mesh = sphere(1, 1);
   const double nan = std::nan("");
@@ -276,21 +267,21 @@ TEST(Stylize, RefusesWhatItCannotTake) {
   const auto with = [&](const StylizeOptions& options) {
     return [&mesh, options] { Stylize(mesh.positions, mesh.triangles, options); };
   };
-  expect_style_refused(solve(cube_normals(), -1), "lambda");
-  expect_style_refused(solve(cube_normals(), nan), "lambda");
-  expect_style_refused(solve(ClosestNormals{}, 1), "style.normals: there is none");
-  expect_style_refused(solve(ClosestNormals{Positions::Zero(2, 3)}, 1), "row 0 has no direction");
-  expect_style_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
-  expect_style_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
-  expect_style_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
-  expect_style_refused(solve(Developable{-0.1}, 1), "tau");
-  expect_style_refused(solve(Developable{0.1, -1}, 1), "threshold");
-  expect_style_refused(solve(SphereMap{}, 1), "directions");
-  expect_style_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");
-  expect_style_refused(with(by(arap, 0)), "pass_limit");
+  expect_refused(solve(cube_normals(), -1), "lambda");
+  expect_refused(solve(cube_normals(), nan), "lambda");
+  expect_refused(solve(ClosestNormals{}, 1), "style.normals: there is none");
+  expect_refused(solve(ClosestNormals{Positions::Zero(2, 3)}, 1), "row 0 has no direction");
+  expect_refused(solve(GivenNormals{Positions::Ones(3, 3)}, 1), "42 vertices");
+  expect_refused(solve(GivenNormals{Positions::Ones(3, 3), true}, 1), "80 triangles");
+  expect_refused(solve(GivenNormals{Positions::Constant(42, 3, nan)}, 1), "not finite");
+  expect_refused(solve(Developable{-0.1}, 1), "tau");
+  expect_refused(solve(Developable{0.1, -1}, 1), "threshold");
+  expect_refused(solve(SphereMap{}, 1), "directions");
+  expect_refused(solve(SphereMap{Positions::Ones(2, 3), {}, Positions::Ones(2, 3)}, 1), "triangles");
+  expect_refused(with(by(arap, 0)), "pass_limit");
   StylizeOptions options;
   options.movement = -1;
-  expect_style_refused(with(options), "movement");
+  expect_refused(with(options), "movement");
   Gesture handles;
   handles.add(42, {0, 0, 0});
   EXPECT_THROW(stylize(mesh.positions, mesh.triangles, cube_normals(), 1, {}, handles), InvalidInput);

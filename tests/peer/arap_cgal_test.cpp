@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 
 #include "cgal_arap.h"
 #include "edit_measures.h"
@@ -26,12 +25,7 @@ Positions by_swage(const Mesh& mesh, const Gesture& gesture, int passes) {
   return deform(mesh.positions, mesh.triangles, gesture, options).positions;
 }
 
-struct Case {
-  std::string name;
-  Mesh mesh;
-};
-
-class ArapAndCgal : public testing::TestWithParam<Case> {};
+class ArapAndCgal : public testing::TestWithParam<NamedMesh> {};
 
 TEST_P(ArapAndCgal, AgreePassByPass) {
   const Mesh& mesh = GetParam().mesh;
@@ -47,9 +41,9 @@ TEST_P(ArapAndCgal, AgreePassByPass) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ArapAndCgal,
-                         testing::Values(Case{"sphere", sphere(1, 3)}, Case{"box", box({1, 2, 0.5}, 6)},
-                                         Case{"torus", torus(1, 0.4, 32, 16)}, Case{"sheet", sheet(10)},
-                                         Case{"cylinder", cylinder(0.3, 1.5, 20, 12)}),
+                         testing::Values(NamedMesh{"sphere", sphere(1, 3)}, NamedMesh{"box", box({1, 2, 0.5}, 6)},
+                                         NamedMesh{"torus", torus(1, 0.4, 32, 16)}, NamedMesh{"sheet", sheet(10)},
+                                         NamedMesh{"cylinder", cylinder(0.3, 1.5, 20, 12)}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

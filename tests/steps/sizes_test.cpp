@@ -1,10 +1,10 @@
 // Matrices of other sizes than the rest shape's are refused in words, by every backend.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "element_pairs.h"
 #include "opencl_device.h"
 #include "plan.h"
+#include "refused.h"
 #include "rests.h"
 #include "shapes.h"
 #include "swage/error.h"
@@ -12,23 +12,11 @@
 namespace swage {
 namespace {
 
-using testing::HasSubstr;
-
 class Sizes : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override { backend_ = GetParam() == std::string("cpu") ? cpu_backend() : test::opencl_or_skip(); }
   std::shared_ptr<Backend> backend_;
 };
-
-template <typename Call>
-void expect_refused(const std::string& words, const Call& call) {
-  try {
-    call();
-    ADD_FAILURE() << "taken: " << words;
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr(words));
-  }
-}
 
 TEST_P(Sizes, OfTransformsAndPositions) {
   if (!backend_) return;
@@ -39,11 +27,12 @@ TEST_P(Sizes, OfTransformsAndPositions) {
   TransformStep::EdgeQuadratics quadratics;
   Transforms result;
   for (const int off : {-1, 1}) {
-    expect_refused("TransformStep::fit_edges: transforms: ",
-                   [&] { transform->fit_edges(identities(triangles + off), quadratics); });
-    expect_refused("TransformStep::fit_transforms: positions: ",
-                   [&] { transform->fit_transforms(Positions::Zero(vertices + off, 3), result); });
-    expect_refused("CouplingStep::apply: transforms: ", [&] { coupling->apply(identities(triangles + off), result); });
+    test::expect_refused([&] { transform->fit_edges(identities(triangles + off), quadratics); },
+                         "TransformStep::fit_edges: transforms: ");
+    test::expect_refused([&] { transform->fit_transforms(Positions::Zero(vertices + off, 3), result); },
+                         "TransformStep::fit_transforms: positions: ");
+    test::expect_refused([&] { coupling->apply(identities(triangles + off), result); },
+                         "CouplingStep::apply: transforms: ");
   }
 }
 
@@ -54,11 +43,12 @@ TEST_P(Sizes, OfPairsAndNormals) {
   const auto rotation = backend_->rotation(rest);
   const auto similarity = backend_->similarity(rest);
   Transforms result;
-  expect_refused("RotationStep::fit: positions: ", [&] { rotation->fit(few, rest.normals, result); });
-  expect_refused("RotationStep::fit: targets: 0 rows", [&] { rotation->fit(rest.vertices, Positions(0, 3), result); });
-  expect_refused("SimilarityStep::fit: positions: ", [&] { similarity->fit(few, rest.normals, result); });
-  expect_refused("SimilarityStep::fit: targets: 0 rows",
-                 [&] { similarity->fit(rest.vertices, Positions(0, 3), result); });
+  test::expect_refused([&] { rotation->fit(few, rest.normals, result); }, "RotationStep::fit: positions: ");
+  test::expect_refused([&] { rotation->fit(rest.vertices, Positions(0, 3), result); },
+                       "RotationStep::fit: targets: 0 rows");
+  test::expect_refused([&] { similarity->fit(few, rest.normals, result); }, "SimilarityStep::fit: positions: ");
+  test::expect_refused([&] { similarity->fit(rest.vertices, Positions(0, 3), result); },
+                       "SimilarityStep::fit: targets: 0 rows");
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Sizes, testing::Values("cpu", "opencl"),
